@@ -124,8 +124,9 @@ enum { BAR = 40, MOST_PARTS = 20 };
 
 static const char *const items[] = {"points", "curves", "faces"};
 
-static void print_histogram(const OstMeshReport *counts)
+static void print_histogram(const OstMesh *mesh, const OstMeshReport *counts)
 {
+    char cell[64] = "";
     OstGlobal most = 1;
     for (int b = 0; b < OST_QUALITY_BINS; b++)
         most = counts->bins[b] > most ? counts->bins[b] : most;
@@ -135,7 +136,9 @@ static void print_histogram(const OstMeshReport *counts)
         printf("  %.1f to %.1f %12lld  %.*s\n", 0.1 * b, 0.1 * (b + 1), (long long)counts->bins[b], length,
                "########################################");
     }
-    printf("  least %.3g (tet %lld), mean %.3g\n", counts->least_quality, (long long)counts->worst_tet,
+    if (mesh->of_cells)
+        snprintf(cell, sizeof cell, " of element %lld", (long long)ost_cell_label(1, counts->worst_tet));
+    printf("  least %.3g (tet %lld%s), mean %.3g\n", counts->least_quality, (long long)counts->worst_tet, cell,
            counts->mean_quality);
 }
 
@@ -176,7 +179,7 @@ void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, con
         putchar('\n');
     }
     print_parts(counts);
-    print_histogram(counts);
+    print_histogram(mesh, counts);
 }
 
 static json_t *parts_json(const OstComponents *parts)

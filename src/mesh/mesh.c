@@ -8,6 +8,7 @@
 #include "core/parallel/reduce.h"
 
 #include <math.h>
+#include <stdio.h>
 
 void ost_mesh_destroy(OstMesh **mesh)
 {
@@ -113,6 +114,14 @@ const OstGlobal *ost_mesh_node_labels(const OstMesh *mesh)
 const OstLocal *ost_mesh_tet_nodes(const OstMesh *mesh)
 {
     return mesh->tet_nodes;
+}
+
+const char *ost_cell_words(const OstMesh *mesh, OstGlobal tet_label, char words[OST_CELL_WORDS])
+{
+    words[0] = '\0';
+    if (mesh->of_cells)
+        snprintf(words, OST_CELL_WORDS, " (of element %lld of the file)", (long long)ost_cell_label(1, tet_label));
+    return words;
 }
 
 const OstGlobal *ost_mesh_tet_labels(const OstMesh *mesh)

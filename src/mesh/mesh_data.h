@@ -53,6 +53,7 @@ struct OstMeshChunk {
     OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
     int relabelled;        /* the file's numbers of tets were no use, and were replaced */
+    int of_cells;          /* tets are pieces of the file's cells: those of cell 17 have the labels 171, 172, ... */
     int32_t *tet_region;   /* index into regions */
     double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
     double *tet_field;     /* NULL, or tet_count × the columns of the fields */
@@ -62,6 +63,14 @@ struct OstMeshChunk {
     OstBoundary *boundaries;
     int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
 };
+
+/* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */
+enum { OST_PIECE_LABELS = 10, OST_CELL_WORDS = 64 };
+static inline OstGlobal ost_cell_label(int of_cells, OstGlobal tet_label)
+{
+    return of_cells ? tet_label / OST_PIECE_LABELS : tet_label;
+}
+const char *ost_cell_words(const OstMesh *mesh, OstGlobal tet_label, char words[OST_CELL_WORDS]);
 
 /* What the partition kept on one rank each (mesh/distribution/weld.h). */
 enum { OST_WELDED_STIFF = 1, OST_WELDED_CLOSE = 2 };
@@ -80,6 +89,7 @@ struct OstMesh {
     OstGlobal *node_number; /* node_count: global numbers after partition (contiguous over ranks) */
     OstGlobal *node_label;  /* node_count: numbers as in the file */
     OstGlobal *tet_label;   /* tet_count */
+    int of_cells;           /* as in the chunk; a refined mesh has it no more */
     double *coordinates;    /* node_count × 3 */
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */

@@ -117,13 +117,19 @@ static int are_twins(const Face *a, const Face *b)
     return a->middle == b->middle && a->high == b->high;
 }
 
+static OstStatus raise_twins(const OstMesh *mesh, const Face *a, const Face *b)
+{
+    char cells[2][OST_CELL_WORDS];
+    const OstGlobal label[2] = {mesh->tet_label[a->tet], mesh->tet_label[b->tet]};
+    const char *fault = a->twins > 1 || b->twins > 1 ? "share a face with a third tet" : "lie on one side of a face";
+    return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "tets %lld%s and %lld%s %s; remove the doubled or overlapping tet",
+                     (long long)label[0], ost_cell_words(mesh, label[0], cells[0]), (long long)label[1],
+                     ost_cell_words(mesh, label[1], cells[1]), fault);
+}
+
 static OstStatus check_twins(const OstMesh *mesh, const Face *a, const Face *b)
 {
-    const char *fault = a->twins > 1 || b->twins > 1 ? "share a face with a third tet" : "lie on one side of a face";
-    if (a->twins > 1 || b->twins > 1 || a->turn == b->turn)
-        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "tets %lld and %lld %s; remove the doubled or overlapping tet",
-                         (long long)mesh->tet_label[a->tet], (long long)mesh->tet_label[b->tet], fault);
-    return OST_SUCCESS;
+    return a->twins > 1 || b->twins > 1 || a->turn == b->turn ? raise_twins(mesh, a, b) : OST_SUCCESS;
 }
 
 /* Two tets meet in an inner face, from opposite sides. */

@@ -50,6 +50,20 @@ void ost_scene_materials_release(OstSceneMaterials *materials)
     OST_FREE(materials->axes);
 }
 
+/* The line of each tet, and how many lines there are: one for each solid of the mesh file, of which rank 0 has all if
+ * they were split into tets. */
+static OstGlobal number_lines(const OstMeshChunk *chunk, OstGlobal *line)
+{
+    OstGlobal lines = 0;
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        const int is_next = t == 0 || !chunk->of_cells ||
+                            ost_cell_label(1, chunk->tet_label[t]) != ost_cell_label(1, chunk->tet_label[t - 1]);
+        lines += is_next;
+        line[t] = chunk->of_cells ? lines : chunk->first_tet + t + 1;
+    }
+    return chunk->of_cells ? lines : chunk->global_tets;
+}
+
 static OstStatus read_cell_axes(const OstCase *c, const OstCaseMaterial *stated, OstMeshChunk *chunk)
 {
     OstContext *ctx = chunk->ctx;
@@ -62,9 +76,8 @@ static OstStatus read_cell_axes(const OstCase *c, const OstCaseMaterial *stated,
     if (status == OST_SUCCESS && !chunk->tet_axes)
         status = OST_NEW(ctx, &chunk->tet_axes, 9 * tets);
     OST_TRY_DONE(ost_agree(ctx, status));
-    for (size_t t = 0; t < tets; t++)
-        line[t] = chunk->first_tet + (OstGlobal)t + 1;
-    OST_TRY_DONE(ost_table_read(ctx, stated->axes.cells_file, 9, chunk->global_tets, chunk->tet_count, line, table));
+    const OstGlobal lines = number_lines(chunk, line);
+    OST_TRY_DONE(ost_table_read(ctx, stated->axes.cells_file, 9, lines, chunk->tet_count, line, table));
     for (size_t t = 0; t < tets; t++) {
         if (chunk->tet_region[t] != region) {
             region = chunk->tet_region[t];

@@ -42,6 +42,21 @@ static const struct {
     {"meshio-sets.vtu", 23, 48, 2, 0, "left", "right-hand", "clamp", 4},
     {"vtk-appended-raw.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
     {"vtk-appended-base64-zlib.vtu", 23, 48, 1, 0, "volume-11", "volume-12", "surface-7", 4},
+    {"solids-linear.bdf", 17, 24, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-linear.msh", 17, 24, 1, 0, "left", "right", "clamp", 2},
+    {"solids-linear.vtk", 17, 24, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-meshio.mesh", 17, 24, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-meshio.vtu", 17, 24, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-bricks-linear.inp", 16, 18, 2, 3, "left", "right", "clamp", 2},
+    {"solids-bricks-linear.unv", 16, 18, 1, 0, "left", "right", "clamp", 2},
+    {"solids-serendipity.msh", 71, 24, 1, 0, "left", "right", "clamp", 2},
+    {"solids-full.msh", 71, 24, 1, 0, "left", "right", "clamp", 2},
+    {"solids-vtk.vtu", 71, 24, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-bricks-serendipity.bdf", 63, 18, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-bricks-serendipity.inp", 63, 18, 2, 3, "left", "right", "clamp", 2},
+    {"solids-bricks-serendipity.unv", 63, 18, 1, 0, "left", "right", "clamp", 2},
+    {"solids-bricks-serendipity.vtk", 63, 18, 1, 0, "volume-11", "volume-12", "surface-7", 2},
+    {"solids-bricks-full.vtk", 63, 18, 1, 0, "volume-11", "volume-12", "surface-7", 2},
     {"tetgen-linear.ele", 83, 136, 4, 0, "volume-11", "volume-12", "surface-7", 16},
     {"tetgen-quadratic.node", 45, 12, 4, 0, "volume-11", "volume-12", "surface-7", 2},
 };
@@ -109,6 +124,11 @@ static void quadratic_meshes_pass_the_checks_of_the_body(void **state)
         assert_success(ost_chunk_read(ctx, path, &chunk));
         if (ost_mesh_distribute(ctx, &chunk, &mesh) != OST_SUCCESS)
             fail_msg("%s: %s", files[f].name, ost_error_text(ctx));
+        if (strncmp(files[f].name, "solids-", 7) == 0) { /* no inner face is bare */
+            double faces = 0.0;
+            assert_success(ost_mesh_surface_faces(mesh, &faces));
+            assert_close(faces, 28.0, 0.0);
+        }
         ost_mesh_destroy(&mesh);
     }
 }
@@ -143,6 +163,40 @@ static void fields_are_read_tet_by_tet(void **state)
     }
 }
 
+/* 1000 + 1000 x at the mean of the element's vertices, which its tets have all. */
+static void check_modulus(const OstMeshChunk *chunk)
+{
+    for (OstLocal t = 0, next; t < chunk->tet_count; t = next) {
+        char seen[17] = {0};
+        double sum = 0.0, count = 0.0;
+        for (next = t; next < chunk->tet_count && chunk->tet_label[next] / 10 == chunk->tet_label[t] / 10; next++)
+            for (int v = 0; v < 4; v++)
+                seen[chunk->tet_nodes[4 * (size_t)next + (size_t)v]] = 1;
+        for (int n = 0; n < 17; n++) {
+            sum += seen[n] ? chunk->coordinates[3 * n] : 0.0;
+            count += seen[n];
+        }
+        for (OstLocal piece = t; piece < next; piece++)
+            assert_close(chunk->tet_field[2 * (size_t)piece], 1000.0 + 1000.0 * sum / count, 1e-9);
+    }
+}
+
+/* The tets of an element have its number, and of points the mean of their own. */
+static void fields_of_elements_are_read_for_their_tets(void **state)
+{
+    char path[512];
+    OstMeshChunk *chunk = NULL;
+    (void)state;
+    path_of("solids-meshio.vtu", path);
+    assert_success(ost_chunk_read(ctx, path, &chunk));
+    assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));
+    assert_success(ost_mesh_file_read_field(ctx, path, "density", OST_FIELD_OF_NUMBERS, chunk));
+    for (OstLocal t = 0; t < chunk->tet_count; t++)
+        assert_close(chunk->tet_field[2 * (size_t)t + 1], 1.0 + centre_x(chunk, t), 1e-12);
+    check_modulus(chunk);
+    ost_chunk_destroy(&chunk);
+}
+
 /* --- what is refused --- */
 
 static void expect_refusal(const char *name, const char *content, size_t length, const char *words)
@@ -168,7 +222,8 @@ static void mistakes_are_named_with_file_and_line(void **state)
         const char *name, *content, *words;
     } wrong[] = {
         {"a.inp", "*NODE\n1, 0, 0\n2, x, 0, 0\n", "a.inp:3: a coordinate is 'x', expected a number"},
-        {"a.inp", "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n", "1 solid elements that are no tets"},
+        {"a.inp", "*ELEMENT, TYPE=COH3D8\n1, 1,2,3,4,5,6,7,8\n",
+         "1 solid elements that are no linear or quadratic tets"},
         {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3\n*NSET, NSET=A\n",
          "element 7 has 3 nodes, expected 4"},
         {"a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n7, 1, 2, 3, 4\n",
@@ -207,5 +262,6 @@ static void mistakes_are_named_with_file_and_line(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(stored_files_hold_two_cubes), cmocka_unit_test(quadratic_meshes_pass_the_checks_of_the_body),
-    cmocka_unit_test(fields_are_read_tet_by_tet), cmocka_unit_test(mistakes_are_named_with_file_and_line)};
+    cmocka_unit_test(fields_are_read_tet_by_tet), cmocka_unit_test(fields_of_elements_are_read_for_their_tets),
+    cmocka_unit_test(mistakes_are_named_with_file_and_line)};
 OST_TEST_MAIN(tests)

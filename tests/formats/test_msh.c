@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "msh_writer.h"
 
+#include "core/small.h"
 #include "formats/serial/formats.h"
 
 #include <zlib.h>
@@ -251,14 +252,42 @@ static const MshElement tet_a = {7, 4, 3, 1, 5, {10, 20, 31, 40}};
 static const MshElement tet_b = {8, 4, 3, 1, 5, {20, 31, 40, 55}};
 static const MshElement tet_c = {9, 4, 3, 1, 5, {10, 31, 56, 40}};
 
-static void other_solid_elements_are_refused_by_name(void **state)
+static double volume_of_tet(OstLocal t)
 {
+    double edge[9];
+    const OstGlobal *nodes = chunk->tet_nodes + 4 * (size_t)t;
+    for (int e = 0; e < 9; e++)
+        edge[e] = chunk->coordinates[3 * nodes[e / 3 + 1] + e % 3] - chunk->coordinates[3 * nodes[0] + e % 3];
+    return ost_determinant3(edge) / 6.0;
+}
+
+/* A cube, and a pyramid on top of it: the pieces of element 12 are 121 to 126. */
+static void hexahedra_and_pyramids_become_tets(void **state)
+{
+    static const MshNode nodes[] = {{10, {0, 0, 0}}, {20, {1, 0, 0}}, {31, {1, 1, 0}},
+                                    {40, {0, 1, 0}}, {5, {0, 0, 1}},  {56, {1, 0, 1}},
+                                    {57, {1, 1, 1}}, {58, {0, 1, 1}}, {3, {0.5, 0.5, 2}}};
+    static const MshElement elements[] = {{1, 3, 2, 5, 3, {10, 20, 56, 5}},
+                                          {12, 5, 3, 1, 5, {10, 20, 31, 40, 5, 56, 57, 58}},
+                                          {13, 7, 3, 2, 6, {5, 56, 57, 58, 3}}};
+    const MshModel model = {NULL, 9, 3, nodes, elements};
     (void)state;
-    const MshElement prism = {1, 6, 3, 1, 5, {10, 20, 31, 40, 55, 56}};
-    const MshElement pyramid = {1, 7, 3, 1, 5, {10, 20, 31, 40, 55}};
-    refuse((MshElement[]){prism, tet_a, tet_b}, 3, "holds 1 elements of Gmsh's type 'Prism 6'");
-    refuse((MshElement[]){pyramid, tet_a, tet_c, tet_b}, 4, "'Pyramid 5'");
-    refuse(&prism, 1, "'Prism 6'");
+    for (int f = 0; f < MSH_FLAVOURS; f++) {
+        double volume[2] = {0.0, 0.0};
+        assert_success(read_and_listen(msh_write(&model, msh_flavours[f], "solids.msh")));
+        assert_int_equal(warnings, 0);
+        assert_int_equal(boundary("surface-5")->count, 2);
+        for (OstLocal t = 0; t < chunk->tet_count; t++) {
+            const int top = chunk->tet_label[t] / 10 == 13;
+            assert_int_equal(chunk->tet_label[t], top ? 131 + t - (chunk->tet_count - 2) : 121 + t);
+            assert_string_equal(chunk->regions.name[chunk->tet_region[t]], top ? "volume-2" : "volume-1");
+            assert_true(volume_of_tet(t) > 0.1);
+            volume[top] += volume_of_tet(t);
+        }
+        assert_close(volume[0], 1.0, 1e-15);
+        assert_close(volume[1], 1.0 / 3.0, 1e-15);
+        drop_mesh();
+    }
 }
 
 static void a_mesh_without_tets_is_refused(void **state)
@@ -541,6 +570,10 @@ static void wrong_files_are_refused_where_they_are_wrong(void **state)
     refuse_text(HEAD22 "$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n", "text.msh:7: '2 0 0 0' found, expected $EndNodes");
     refuse_text(HEAD22 "$NodeData\n1\n", "text.msh:4: the section $NodeData has no end $EndNodeData");
     refuse_text(NODES22 "$Elements\n1\n1 4 2 1 1 1 2 3 5\n$EndElements\n", "text.msh:13: an element uses node 5");
+    refuse_text(NODES22 "$Elements\n1\n1 29 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n",
+                "holds 1 elements of Gmsh's type 'Tetrahedron 20', expected linear or quadratic ones");
+    refuse_text(NODES22 "$Elements\n2\n1 7 2 1 1 1 2 3 4 4\n2 11 2 1 1 1 2 3 4 1 2 3 4 1 2\n$EndElements\n",
+                "holds 1 linear and 1 quadratic solid elements");
     refuse_text(NODES22 "$Elements\n1\n1 4 -4 1 1 1 2 3 4\n$EndElements\n", "an element has -4 tags");
     refuse_text(NODES22 "$Elements\n1\n1 92 2 1 1 1 2 3 4\n$EndElements\n", "text.msh:13: element of type 92 found");
     refuse_text(NODES22 "$Elements\n2\n1 4 2 1 1 1 2 3 4\n$EndElements\n", "'$EndElements' found, expected");
@@ -753,7 +786,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(tets_come_in_the_order_of_their_tags),
     cmocka_unit_test(elements_of_one_entity_stay_in_their_groups),
     cmocka_unit_test(groups_of_one_name_are_one),
-    cmocka_unit_test(other_solid_elements_are_refused_by_name),
+    cmocka_unit_test(hexahedra_and_pyramids_become_tets),
     cmocka_unit_test(a_mesh_without_tets_is_refused),
     cmocka_unit_test(quadrilaterals_in_a_boundary_are_refused),
     cmocka_unit_test(a_tet_in_several_volumes_is_in_the_smallest),

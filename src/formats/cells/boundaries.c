@@ -181,6 +181,7 @@ static void face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, OstGl
 
 static OstStatus add_faces(OstCells *cells, const OstCellSet *set, OstCellKind tets)
 {
+    static const int opposite[4] = {3, 2, 0, 1}; /* vertices, in the order of Abaqus's faces */
     const int width = ost_cell_facts[tets].nodes;
     OstBoundary *boundary = NULL;
     OST_TRY(boundary_of(cells, set->name, 2, width == 4 ? 3 : 6, &boundary));
@@ -188,11 +189,12 @@ static OstStatus add_faces(OstCells *cells, const OstCellSet *set, OstCellKind t
     for (OstLocal i = 0; i < set->count; i++) {
         OstGlobal face[6];
         OstLocal tet = 0;
-        if (ost_cells_find(cells, set->item[i] / 4, &tet) != tets) {
+        const OstGlobal side = set->item[i] % OST_CELL_FACES;
+        if (ost_cells_find(cells, set->item[i] / OST_CELL_FACES, &tet) != tets || side > 3) {
             cells->missing++;
             continue;
         }
-        face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, (int)(set->item[i] % 4), face);
+        face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, opposite[side], face);
         append(boundary, face);
     }
     return OST_SUCCESS;

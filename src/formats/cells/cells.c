@@ -13,8 +13,13 @@
 enum { FIRST_ROOM = 64 };
 
 const OstCellFacts ost_cell_facts[OST_CELL_KINDS] = {
-    [OST_CELL_POINT] = {0, 1},     [OST_CELL_LINE2] = {1, 2}, [OST_CELL_LINE3] = {1, 3},  [OST_CELL_TRIANGLE3] = {2, 3},
-    [OST_CELL_TRIANGLE6] = {2, 6}, [OST_CELL_TET4] = {3, 4},  [OST_CELL_TET10] = {3, 10},
+    [OST_CELL_POINT] = {0, 1},      [OST_CELL_LINE2] = {1, 2},     [OST_CELL_LINE3] = {1, 3},
+    [OST_CELL_TRIANGLE3] = {2, 3},  [OST_CELL_TRIANGLE6] = {2, 6}, [OST_CELL_TET4] = {3, 4},
+    [OST_CELL_TET10] = {3, 10},     [OST_CELL_PYRAMID5] = {3, 5},  [OST_CELL_PYRAMID13] = {3, 13},
+    [OST_CELL_PYRAMID14] = {3, 14}, [OST_CELL_WEDGE6] = {3, 6},    [OST_CELL_WEDGE15] = {3, 15},
+    [OST_CELL_WEDGE18] = {3, 18},   [OST_CELL_HEX8] = {3, 8},      [OST_CELL_HEX20] = {3, 20},
+    [OST_CELL_HEX27] = {3, 27},     [OST_CELL_QUAD4] = {2, 4},     [OST_CELL_QUAD8] = {2, 8},
+    [OST_CELL_QUAD9] = {2, 9},
 };
 
 OstStatus ost_cells_open(OstContext *ctx, const char *path, OstCells *cells)

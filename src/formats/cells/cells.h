@@ -8,7 +8,8 @@
 /* A mesh as other programs have it, while its file is read: nodes and elements by number and in any order, and sets of
  * them. Memory grows with what is read, never with a count that a file states. */
 
-/* Mid-edge nodes of a tet come in VTK's order, 01 12 02 03 13 23; those of a triangle as 01 12 20. */
+/* Nodes come in VTK's order, as of its quadratic cells: mid-edge nodes of a tet are 01 12 02 03 13 23, those of a
+ * triangle 01 12 20 (shapes.c has the others). The triangle 012 of a wedge may be seen from either side. */
 typedef enum {
     OST_CELL_POINT,
     OST_CELL_LINE2,
@@ -17,6 +18,18 @@ typedef enum {
     OST_CELL_TRIANGLE6,
     OST_CELL_TET4,
     OST_CELL_TET10,
+    OST_CELL_PYRAMID5, /* from here on cells are split (split.h): solids, then */
+    OST_CELL_PYRAMID13,
+    OST_CELL_PYRAMID14,
+    OST_CELL_WEDGE6,
+    OST_CELL_WEDGE15,
+    OST_CELL_WEDGE18,
+    OST_CELL_HEX8,
+    OST_CELL_HEX20,
+    OST_CELL_HEX27,
+    OST_CELL_QUAD4, /* faces */
+    OST_CELL_QUAD8,
+    OST_CELL_QUAD9,
     OST_CELL_KINDS
 } OstCellKind;
 
@@ -41,15 +54,24 @@ typedef struct OstCellName {
     char *name;
 } OstCellName;
 
-/* A named list of nodes, of cells, or of faces of tets. */
+/* A named list of nodes, of cells, or of faces of solids. */
 typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES } OstSetKind;
 typedef struct OstCellSet {
     OstSetKind kind;
     char *name;
     int is_region; /* of cells: may be a region if it holds tets; else it only bounds */
     OstLocal count, room;
-    OstGlobal *item; /* labels; of faces: 4 × the tet's label + the vertex opposite the face, 0 to 3 */
+    OstGlobal *item; /* labels; of faces: as ost_cell_face makes them */
 } OstCellSet;
+
+/* A face of a solid, by the solid's label and the face's number from 0, in the order of Abaqus's S1, S2, ...
+ * (shapes.c).
+ */
+enum { OST_CELL_FACES = 8 };
+static inline OstGlobal ost_cell_face(OstGlobal label, int face)
+{
+    return OST_CELL_FACES * label + face;
+}
 
 typedef struct OstCells {
     OstContext *ctx;
@@ -61,7 +83,7 @@ typedef struct OstCells {
     OstCellName *name;
     int set_count;
     OstCellSet *set;
-    OstGlobal solids, others; /* that are no tets; that are neither solids, triangles, lines nor points */
+    OstGlobal solids, others; /* that are not read; that are neither solids, faces, lines nor points */
     char solid[48], other[48];
     OstGlobal missing;    /* items of sets that are not in the file */
     OstLabelIndex nodes;  /* label to position; then */
@@ -94,13 +116,16 @@ void ost_cells_keep_once(OstCells *cells, int set);
 OstStatus ost_cells_put_set(OstCells *cells, int set, int from);
 OstStatus ost_cells_put_range(OstCells *cells, int set, OstGlobal first, OstGlobal last, OstGlobal step);
 
-/* Local. Makes the chunk: sets and groups of tets become regions (a tet in several goes to the one with the fewest),
- * those of triangles, lines, points, nodes and faces become boundaries; what is no part of the body is left out with
- * warnings. Raises OST_INVALID_INPUT for solids that are no tets, for nodes that are not there and for labels that
- * occur twice. `chunk` is then the caller's. */
+/* Local. Makes the chunk: other solids become tets; sets and groups of tets become regions (a tet in several goes to
+ * the one with the fewest), those of triangles, lines, points, nodes and faces become boundaries; what is no part of
+ * the body is left out with warnings. Raises OST_INVALID_INPUT for solids that are not read, for nodes that are not
+ * there and for labels that occur twice. `chunk` is then the caller's. */
 OstStatus ost_cells_finish(OstCells *cells, OstMeshChunk **chunk);
 
-/* Local. The two halves of that. */
+/* Local. The steps of that. Once nodes and labels are indexed, splits solids that are no tets, if there are any, and
+ * the faces of four corners with them; sets and groups keep what they held. */
+int ost_cells_must_split(const OstCells *cells);
+OstStatus ost_cells_split(OstCells *cells);
 OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets);
 OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets);
 

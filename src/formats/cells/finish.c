@@ -7,19 +7,45 @@
 #include <inttypes.h>
 #include <string.h>
 
+static int is_linear(OstCellKind kind)
+{
+    return kind == OST_CELL_TET4 || kind == OST_CELL_PYRAMID5 || kind == OST_CELL_WEDGE6 || kind == OST_CELL_HEX8;
+}
+
+static OstGlobal count_quads(const OstCells *cells)
+{
+    return (OstGlobal)cells->list[OST_CELL_QUAD4].count + cells->list[OST_CELL_QUAD8].count +
+           cells->list[OST_CELL_QUAD9].count;
+}
+
+/* Quadrilaterals bound no tets of the file. */
+static void leave_out_quads(OstCells *cells)
+{
+    for (int k = OST_CELL_QUAD4; k < OST_CELL_KINDS; k++) {
+        for (OstLocal i = 0; i < cells->list[k].count; i++)
+            ost_cells_skip(cells, 2, "a quadrilateral");
+        cells->list[k].count = 0;
+    }
+}
+
 static OstStatus check_kinds(const OstCells *cells)
 {
-    const OstLocal linear = cells->list[OST_CELL_TET4].count, quadratic = cells->list[OST_CELL_TET10].count;
+    OstGlobal linear = 0, quadratic = 0;
+    for (int k = OST_CELL_TET4; k < OST_CELL_QUAD4; k++)
+        *(is_linear((OstCellKind)k) ? &linear : &quadratic) += cells->list[k].count;
     if (cells->solids > 0)
         return OST_RAISE(
             cells->ctx, OST_INVALID_INPUT,
-            "%s: holds %" PRId64 " solid elements that are no tets of 4 or of 10 nodes, the first of them "
-            "%s; remesh the body with tets, or split them (in ParaView: Tetrahedralize, then File, Save Data as .vtu)",
+            "%s: holds %" PRId64
+            " solid elements that are no linear or quadratic tets, hexahedra, wedges or pyramids, the "
+            "first of them %s; remesh the body with tets, or split them (in ParaView: Tetrahedralize, then File, Save "
+            "Data as .vtu)",
             cells->path, cells->solids, cells->solid);
     if (linear > 0 && quadratic > 0)
         return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                         "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
-                         cells->path);
+                         "%s: holds %" PRId64 " linear and %" PRId64
+                         " quadratic solid elements, expected one kind; mesh the whole body in one order",
+                         cells->path, linear, quadratic);
     if (cells->chunk->node_count == 0)
         return OST_RAISE(
             cells->ctx, OST_INVALID_INPUT,
@@ -27,12 +53,12 @@ static OstStatus check_kinds(const OstCells *cells)
             "to do with a mesh in another file?",
             cells->path);
     if (linear + quadratic == 0)
-        return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
-                         "%s: holds no tets (%" PRId64 " triangles, %" PRId64 " nodes); mesh the volume with tets, as "
-                         "gmsh -3 does",
-                         cells->path,
-                         (OstGlobal)cells->list[OST_CELL_TRIANGLE3].count + cells->list[OST_CELL_TRIANGLE6].count,
-                         (OstGlobal)cells->chunk->node_count);
+        return OST_RAISE(
+            cells->ctx, OST_INVALID_INPUT,
+            "%s: holds no tets (%" PRId64 " triangles, %" PRId64 " quadrilaterals, %" PRId64 " nodes); mesh "
+            "the volume with tets, as gmsh -3 does",
+            cells->path, (OstGlobal)cells->list[OST_CELL_TRIANGLE3].count + cells->list[OST_CELL_TRIANGLE6].count,
+            count_quads(cells), (OstGlobal)cells->chunk->node_count);
     return OST_SUCCESS;
 }
 
@@ -67,6 +93,7 @@ static OstStatus index_labels(OstCells *cells)
     OstGlobal count = 0, *label = NULL;
     for (int s = 0; s < cells->set_count; s++)
         wanted |= cells->set[s].kind != OST_SET_OF_NODES && cells->set[s].count > 0;
+    ost_label_index_clear(&cells->labels);
     if (!wanted)
         return OST_SUCCESS;
     for (int k = 0; k < OST_CELL_KINDS; k++)
@@ -114,12 +141,19 @@ static void take_tets(OstCells *cells, OstCellKind kind)
 
 static OstStatus build(OstCells *cells)
 {
+    const int split = ost_cells_must_split(cells);
     OST_TRY(check_kinds(cells));
-    const OstCellKind tets = cells->list[OST_CELL_TET4].count > 0 ? OST_CELL_TET4 : OST_CELL_TET10;
+    if (!split)
+        leave_out_quads(cells);
     OST_TRY(index_nodes(cells));
     for (int k = 0; k < OST_CELL_KINDS; k++)
         OST_TRY(find_nodes(cells, &cells->list[k], (size_t)ost_cell_facts[k].nodes));
     OST_TRY(index_labels(cells));
+    if (split)
+        OST_TRY(ost_cells_split(cells));
+    if (split)
+        OST_TRY(index_labels(cells));
+    const OstCellKind tets = cells->list[OST_CELL_TET4].count > 0 ? OST_CELL_TET4 : OST_CELL_TET10;
     OST_TRY(ost_cells_make_regions(cells, tets));
     OST_TRY(ost_cells_make_boundaries(cells, tets));
     take_tets(cells, tets);

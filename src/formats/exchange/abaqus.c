@@ -31,8 +31,18 @@ static const struct {
     {"S6", OST_CELL_TRIANGLE6, 2},     {"STRI3", OST_CELL_TRIANGLE3, 2},  {"S3", OST_CELL_TRIANGLE3, 2},
     {"M3D3", OST_CELL_TRIANGLE3, 2},   {"SFM3D3", OST_CELL_TRIANGLE3, 2}, {"R3D3", OST_CELL_TRIANGLE3, 2},
     {"CPS3", OST_CELL_TRIANGLE3, 2},   {"CPE3", OST_CELL_TRIANGLE3, 2},   {"DS3", OST_CELL_TRIANGLE3, 2},
-    {"C3D", OST_CELL_KINDS, 3},        {"DC3D", OST_CELL_KINDS, 3},       {"SC", OST_CELL_KINDS, 3},
-    {"CSS8", OST_CELL_KINDS, 3},       {"COH3D", OST_CELL_KINDS, 3},
+    {"C3D15V", OST_CELL_KINDS, 3},     {"C3D8", OST_CELL_HEX8, 3},        {"DC3D8", OST_CELL_HEX8, 3},
+    {"C3D20", OST_CELL_HEX20, 3},      {"DC3D20", OST_CELL_HEX20, 3},     {"C3D27", OST_CELL_HEX27, 3},
+    {"C3D6", OST_CELL_WEDGE6, 3},      {"DC3D6", OST_CELL_WEDGE6, 3},     {"C3D15", OST_CELL_WEDGE15, 3},
+    {"DC3D15", OST_CELL_WEDGE15, 3},   {"C3D18", OST_CELL_WEDGE18, 3},    {"C3D5", OST_CELL_PYRAMID5, 3},
+    {"DC3D5", OST_CELL_PYRAMID5, 3},   {"C3D13", OST_CELL_PYRAMID13, 3},  {"S4", OST_CELL_QUAD4, 2},
+    {"M3D4", OST_CELL_QUAD4, 2},       {"SFM3D4", OST_CELL_QUAD4, 2},     {"R3D4", OST_CELL_QUAD4, 2},
+    {"CPS4", OST_CELL_QUAD4, 2},       {"CPE4", OST_CELL_QUAD4, 2},       {"DS4", OST_CELL_QUAD4, 2},
+    {"S8", OST_CELL_QUAD8, 2},         {"M3D8", OST_CELL_QUAD8, 2},       {"SFM3D8", OST_CELL_QUAD8, 2},
+    {"CPS8", OST_CELL_QUAD8, 2},       {"CPE8", OST_CELL_QUAD8, 2},       {"DS8", OST_CELL_QUAD8, 2},
+    {"S9", OST_CELL_QUAD9, 2},         {"M3D9", OST_CELL_QUAD9, 2},       {"C3D", OST_CELL_KINDS, 3},
+    {"DC3D", OST_CELL_KINDS, 3},       {"SC", OST_CELL_KINDS, 3},         {"CSS8", OST_CELL_KINDS, 3},
+    {"COH3D", OST_CELL_KINDS, 3},
 };
 
 static void find_type(OstInp *inp, const char *type)
@@ -124,6 +134,16 @@ static OstStatus read_node(OstInp *inp)
     return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, label);
 }
 
+/* Of C3D27's last nodes that of the body comes first, then those of the faces S1 to S6. */
+static void order_c3d27(OstGlobal *nodes)
+{
+    static const int from[7] = {26, 24, 23, 25, 21, 22, 20};
+    OstGlobal last[7];
+    for (int n = 0; n < 7; n++)
+        last[n] = nodes[from[n]];
+    memcpy(nodes + 20, last, sizeof last);
+}
+
 /* A line may end within an element, which the next one then goes on with. */
 static OstStatus read_element(OstInp *inp)
 {
@@ -137,6 +157,8 @@ static OstStatus read_element(OstInp *inp)
         return OST_SUCCESS;
     inp->filled = 0;
     OST_TRY(ost_lines_finish(inp->lines, "the nodes of an element"));
+    if (inp->kind == OST_CELL_HEX27)
+        order_c3d27(inp->element + 1);
     OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, inp->element + 1));
     return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, inp->element[0]);
 }
@@ -296,8 +318,8 @@ static void choose_regions(OstInp *inp)
         inp->cells.set[s].is_region = inp->cells.set[s].is_region == 2;
     if (inp->left_out > 0)
         ost_warn(inp->ctx,
-                 "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S4, SPOS or SNEG) of tets or triangles, and "
-                 "are left out",
+                 "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S6, SPOS or SNEG) of solids or shells, and are "
+                 "left out",
                  inp->cells.path, inp->left_out);
 }
 

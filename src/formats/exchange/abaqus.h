@@ -36,7 +36,7 @@ typedef struct OstInp {
     int generate; /* do they state ranges? */
     OstCellKind kind;
     int filled; /* numbers of the present element that have been read: its own, then its nodes' */
-    OstGlobal element[11];
+    OstGlobal element[28];
     OstGlobal last_element;
     const char *shape; /* of elements that are skipped */
     char type[OST_INP_WORD];

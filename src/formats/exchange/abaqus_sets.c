@@ -10,9 +10,6 @@
 
 /* Sets and surfaces of Abaqus's and CalculiX's input. */
 
-/* Faces S1 to S4 of a tet by the vertex opposite: S1 is 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1. */
-static const int opposite[4] = {3, 2, 0, 1};
-
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind)
 {
     const char *name = ost_inp_value(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET");
@@ -83,8 +80,8 @@ OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
     return ost_cells_set(&inp->cells, of_nodes ? OST_SET_OF_NODES : OST_SET_OF_FACES, name, &inp->set);
 }
 
-/* Triangles have a side of their own name: they are put into a set of cells that bounds. */
-static OstStatus put_triangles(OstInp *inp, const char *word)
+/* Shells have a side of their own name: they are put into a set of cells that bounds. */
+static OstStatus put_shells(OstInp *inp, const char *word)
 {
     const int set = inp->set;
     OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name, &inp->set));
@@ -96,7 +93,7 @@ static OstStatus put_triangles(OstInp *inp, const char *word)
 static OstStatus put_face(OstInp *inp, OstGlobal label, int side)
 {
     return label < 0 || label > OST_LARGEST_LABEL ? OST_SUCCESS
-                                                  : ost_cells_put(&inp->cells, inp->set, 4 * label + opposite[side]);
+                                                  : ost_cells_put(&inp->cells, inp->set, ost_cell_face(label, side));
 }
 
 /* The faces of an element, or of all of a set. */
@@ -118,15 +115,15 @@ static OstStatus put_faces(OstInp *inp, const char *word, int side)
     return OST_SUCCESS;
 }
 
-/* Elements or a set of them, and which face: S1 to S4 of tets, SPOS and SNEG of triangles. */
+/* Elements or a set of them, and which face: S1 to S6 of solids, SPOS and SNEG of shells. */
 OstStatus ost_inp_surface_line(OstInp *inp)
 {
     char word[OST_INP_WORD], face[OST_INP_WORD];
     ost_lines_word(inp->lines, word, sizeof word);
     ost_lines_word(inp->lines, face, sizeof face);
     if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
-        return put_triangles(inp, word);
-    if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '4' && face[2] == '\0')
+        return put_shells(inp, word);
+    if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '6' && face[2] == '\0')
         return put_faces(inp, word, face[1] - '1');
     inp->left_out++;
     return OST_SUCCESS;

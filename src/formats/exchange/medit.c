@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "formats/cells/cells.h"
 #include "formats/exchange/exchange.h"
-#include "formats/msh/cursor.h"
+#include "formats/msh/msh.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -24,12 +24,20 @@ static const Keyword keywords[] = {
     {"Edges", 5, OST_CELL_LINE2, 3, 1},          {"EdgesP2", 25, OST_CELL_LINE3, 4, 1},
     {"Triangles", 6, OST_CELL_TRIANGLE3, 4, 2},  {"TrianglesP2", 24, OST_CELL_TRIANGLE6, 7, 2},
     {"Tetrahedra", 8, OST_CELL_TET4, 5, 3},      {"TetrahedraP2", 30, OST_CELL_TET10, 11, 3},
-    {"Quadrilaterals", 7, OST_CELL_KINDS, 5, 2}, {"Hexahedra", 10, OST_CELL_KINDS, 9, 3},
-    {"Hexaedra", 0, OST_CELL_KINDS, 9, 3},       {"Prisms", 9, OST_CELL_KINDS, 7, 3},
-    {"Pentahedra", 0, OST_CELL_KINDS, 7, 3},     {"Pyramids", 49, OST_CELL_KINDS, 6, 3},
+    {"Quadrilaterals", 7, OST_CELL_QUAD4, 5, 2}, {"QuadrilateralsQ2", 27, OST_CELL_KINDS, 10, 2},
+    {"Hexahedra", 10, OST_CELL_HEX8, 9, 3},      {"HexahedraQ2", 33, OST_CELL_KINDS, 28, 3},
+    {"Hexaedra", 0, OST_CELL_HEX8, 9, 3},        {"Prisms", 9, OST_CELL_WEDGE6, 7, 3},
+    {"Pentahedra", 0, OST_CELL_WEDGE6, 7, 3},    {"PrismsP2", 86, OST_CELL_KINDS, 19, 3},
+    {"Pyramids", 49, OST_CELL_PYRAMID5, 6, 3},   {"PyramidsP2", 87, OST_CELL_KINDS, 15, 3},
 };
 
-enum { DIMENSION = 3, VERTICES = 4, END = 54, MOST_NUMBERS = 11, LONGEST_WORD = 64, FEWEST_BYTES = 2 };
+/* What a line of Gmsh's holds, by its length; the code is that of Gmsh's type, negative. */
+static const Keyword of_gmsh[] = {{"Quadrilaterals", -16, OST_CELL_QUAD8, 9, 2},
+                                  {"Quadrilaterals", -10, OST_CELL_QUAD9, 10, 2},
+                                  {"Hexahedra", -17, OST_CELL_HEX20, 21, 3},
+                                  {"Hexahedra", -12, OST_CELL_HEX27, 28, 3}};
+
+enum { DIMENSION = 3, VERTICES = 4, END = 54, MOST_NUMBERS = 28, LONGEST_WORD = 64, FEWEST_BYTES = 2 };
 
 typedef struct Medit {
     OstMshCursor cursor;
@@ -115,29 +123,46 @@ static int words_of_line(Medit *medit)
     return words;
 }
 
-/* Gmsh writes quadratic shapes under the words of linear ones. */
+/* Gmsh writes quadratic shapes under the words of linear ones, in its own order of the nodes. */
 static const Keyword *quadratic_if_longer(Medit *medit, const Keyword *linear)
 {
     const Keyword *next = linear + 1;
     const int may_be =
         linear->kind == OST_CELL_LINE2 || linear->kind == OST_CELL_TRIANGLE3 || linear->kind == OST_CELL_TET4;
-    return may_be && !medit->cursor.binary && words_of_line(medit) == next->numbers ? next : linear;
+    const int words = medit->cursor.binary ? 0 : words_of_line(medit);
+    for (size_t k = 0; k < sizeof of_gmsh / sizeof *of_gmsh; k++)
+        if (strcmp(of_gmsh[k].word, linear->word) == 0 && words == of_gmsh[k].numbers)
+            return &of_gmsh[k];
+    return may_be && words == next->numbers ? next : linear;
+}
+
+/* Labels go on through the solids, so that no two have the same. */
+static OstGlobal first_label(const Medit *medit, const Keyword *keyword)
+{
+    OstGlobal label = 1;
+    for (int k = OST_CELL_TET4; k < OST_CELL_QUAD4 && keyword->dimension == 3; k++)
+        label += medit->cells.list[k].count;
+    return label;
 }
 
 static OstStatus read_cells(Medit *medit, const Keyword *keyword)
 {
-    OstGlobal count = 0, numbers[MOST_NUMBERS];
+    OstGlobal count = 0, read[MOST_NUMBERS], numbers[MOST_NUMBERS];
     OST_TRY(read_count(medit, keyword->word, &count));
     keyword = quadratic_if_longer(medit, keyword);
+    const OstMshCell *gmsh = keyword->code < 0 ? ost_msh_cell(-keyword->code) : NULL;
+    const OstGlobal first = first_label(medit, keyword);
     for (OstGlobal i = 0; i < count; i++) {
         for (int k = 0; k < keyword->numbers; k++)
-            OST_TRY(read_integer(medit, "a vertex or reference", &numbers[k]));
-        const OstGlobal reference = numbers[keyword->numbers - 1];
+            OST_TRY(read_integer(medit, "a vertex or reference", &read[k]));
+        const OstGlobal reference = read[keyword->numbers - 1];
+        for (int k = 0; k + 1 < keyword->numbers; k++)
+            numbers[k] = read[gmsh ? gmsh->place[k] : k];
         if (keyword->kind == OST_CELL_KINDS)
             ost_cells_skip(&medit->cells, keyword->dimension, keyword->word);
         else
-            OST_TRY(
-                ost_cells_add(&medit->cells, keyword->kind, i + 1, reference == 0 ? OST_NO_GROUP : reference, numbers));
+            OST_TRY(ost_cells_add(&medit->cells, keyword->kind, first + i, reference == 0 ? OST_NO_GROUP : reference,
+                                  numbers));
     }
     return OST_SUCCESS;
 }

@@ -18,7 +18,7 @@
  * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
  * boundary, and so does each set of constraints. */
 
-enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 10 };
+enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 20 };
 
 typedef struct Placed {
     OstGlobal label, system;
@@ -176,27 +176,55 @@ static OstStatus place_nodes(Nastran *nastran)
     return OST_SUCCESS;
 }
 
+/* Cards of elements. Those of vertical edges come before the upper ones: from the place `moved` on, `from` has VTK's
+ * order. */
+typedef struct Card {
+    const char *name;
+    OstCellKind linear, quadratic; /* the same: it has no mid-edge nodes */
+    int moved, from[8];
+} Card;
+static const Card cards[] = {{"CTETRA", OST_CELL_TET4, OST_CELL_TET10, 0, {0}},
+                             {"CHEXA", OST_CELL_HEX8, OST_CELL_HEX20, 12, {16, 17, 18, 19, 12, 13, 14, 15}},
+                             {"CHEXA8", OST_CELL_HEX8, OST_CELL_HEX8, 0, {0}},
+                             {"CHEXA20", OST_CELL_HEX8, OST_CELL_HEX20, 12, {16, 17, 18, 19, 12, 13, 14, 15}},
+                             {"CPENTA", OST_CELL_WEDGE6, OST_CELL_WEDGE15, 9, {12, 13, 14, 9, 10, 11}},
+                             {"CPYRAM", OST_CELL_PYRAMID5, OST_CELL_PYRAMID13, 0, {0}},
+                             {"CTRIA3", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3, 0, {0}},
+                             {"CTRIAR", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3, 0, {0}},
+                             {"CTRIA6", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE6, 0, {0}},
+                             {"CQUAD4", OST_CELL_QUAD4, OST_CELL_QUAD4, 0, {0}},
+                             {"CQUADR", OST_CELL_QUAD4, OST_CELL_QUAD4, 0, {0}},
+                             {"CQUAD8", OST_CELL_QUAD4, OST_CELL_QUAD8, 0, {0}},
+                             {"CQUAD", OST_CELL_QUAD4, OST_CELL_QUAD9, 0, {0}},
+                             {"CQUAD9", OST_CELL_QUAD4, OST_CELL_QUAD9, 0, {0}}}; /* Gmsh's */
+
 /* Mid-edge nodes are all there, or none. meshio leaves out the property. */
-static OstStatus read_cell(Nastran *nastran, OstCellKind linear, OstCellKind quadratic)
+static OstStatus read_cell(Nastran *nastran, const Card *card)
 {
+    const OstCellKind linear = card->linear, quadratic = card->quadratic;
     const int vertices = ost_cell_facts[linear].nodes, all = ost_cell_facts[quadratic].nodes;
-    OstGlobal label = 0, property = OST_NO_GROUP, nodes[MOST_NODES];
+    OstGlobal label = 0, property = OST_NO_GROUP, nodes[MOST_NODES] = {0}, in_order[MOST_NODES];
     int middles = 0;
     OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
     if (field_of(nastran, 1)[0])
         OST_TRY(take_integer(nastran, "a property", 1, &property));
     for (int n = vertices; n < all; n++)
         middles += field_of(nastran, 2 + n)[0] != '\0' && strcmp(field_of(nastran, 2 + n), "0") != 0;
-    if (linear == OST_CELL_TRIANGLE3 && quadratic != OST_CELL_TRIANGLE6)
-        middles = 0;
     if (middles > 0 && middles < all - vertices) {
         nastran->cursor.place = nastran->line;
         return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has %d of %d mid-edge nodes", label, middles,
                              all - vertices);
     }
+    if (ost_cell_facts[linear].dimension == 3 && field_of(nastran, 2 + all)[0]) {
+        nastran->cursor.place = nastran->line;
+        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has more nodes than the %d of a %s", label, all,
+                             nastran->name);
+    }
     for (int n = 0; n < (middles > 0 ? all : vertices); n++)
         OST_TRY(take_integer(nastran, "a node", 2 + n, &nodes[n]));
-    return ost_cells_add(&nastran->cells, middles > 0 ? quadratic : linear, label, property, nodes);
+    for (int n = 0; n < all; n++)
+        in_order[n] = nodes[card->moved && n >= card->moved ? card->from[n - card->moved] : n];
+    return ost_cells_add(&nastran->cells, middles > 0 ? quadratic : linear, label, property, in_order);
 }
 
 static OstStatus constraint_set(Nastran *nastran, int *set)
@@ -251,20 +279,15 @@ static OstStatus end_card(Nastran *nastran)
     static const struct {
         const char *name;
         int dimension;
-    } others[] = {{"CHEXA", 3},  {"CPENTA", 3}, {"CPYRAM", 3}, {"CHEXA8", 3}, {"CHEXA20", 3},
-                  {"CQUAD4", 2}, {"CQUAD8", 2}, {"CQUADR", 2}, {"CQUAD", 2},  {"CSHEAR", 2},
-                  {"CBAR", 1},   {"CBEAM", 1},  {"CROD", 1},   {"CTUBE", 1},  {"CONROD", 1}};
+    } others[] = {{"CSHEAR", 2}, {"CBAR", 1}, {"CBEAM", 1}, {"CROD", 1}, {"CTUBE", 1}, {"CONROD", 1}};
     const char *name = nastran->name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);
     if (strcmp(name, "CORD2R") == 0 || strcmp(name, "CORD2C") == 0 || strcmp(name, "CORD2S") == 0)
         return read_system(nastran);
-    if (strcmp(name, "CTETRA") == 0)
-        return read_cell(nastran, OST_CELL_TET4, OST_CELL_TET10);
-    if (strcmp(name, "CTRIA6") == 0)
-        return read_cell(nastran, OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE6);
-    if (strcmp(name, "CTRIA3") == 0 || strcmp(name, "CTRIAR") == 0)
-        return read_cell(nastran, OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3);
+    for (size_t k = 0; k < sizeof cards / sizeof *cards; k++)
+        if (strcmp(name, cards[k].name) == 0)
+            return read_cell(nastran, &cards[k]);
     if (strcmp(name, "SPC1") == 0)
         return read_constraints(nastran);
     if (strcmp(name, "SPC") == 0)

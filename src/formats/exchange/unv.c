@@ -12,7 +12,7 @@
 /* I-deas's universal files: data sets between lines of -1, the first line of each its number. Read are nodes (15, 781,
  * 2411), elements (780, 2412) and groups (2429 to 2477). */
 
-enum { MOST_NUMBERS = 10, LONGEST_NAME = 80, OF_NODES = 7, OF_ELEMENTS = 8, MOST_NODES = 10 };
+enum { MOST_NUMBERS = 10, LONGEST_NAME = 80, OF_NODES = 7, OF_ELEMENTS = 8, MOST_NODES = 20 };
 
 typedef struct Unv {
     OstMshCursor cursor;
@@ -30,6 +30,20 @@ static const struct {
 } shapes[] = {
     {111, OST_CELL_TET4, {0, 1, 2, 3}},
     {118, OST_CELL_TET10, {0, 4, 1, 5, 2, 6, 7, 8, 9, 3}},
+    {112, OST_CELL_WEDGE6, {0, 1, 2, 3, 4, 5}},
+    {113, OST_CELL_WEDGE15, {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11}},
+    {115, OST_CELL_HEX8, {0, 1, 2, 3, 4, 5, 6, 7}},
+    {116, OST_CELL_HEX20, {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15}},
+    {44, OST_CELL_QUAD4, {0, 1, 2, 3}},
+    {54, OST_CELL_QUAD4, {0, 1, 2, 3}},
+    {64, OST_CELL_QUAD4, {0, 1, 2, 3}},
+    {71, OST_CELL_QUAD4, {0, 1, 2, 3}},
+    {94, OST_CELL_QUAD4, {0, 1, 2, 3}},
+    {45, OST_CELL_QUAD8, {0, 4, 1, 5, 2, 6, 3, 7}},
+    {55, OST_CELL_QUAD8, {0, 4, 1, 5, 2, 6, 3, 7}},
+    {65, OST_CELL_QUAD8, {0, 4, 1, 5, 2, 6, 3, 7}},
+    {75, OST_CELL_QUAD8, {0, 4, 1, 5, 2, 6, 3, 7}},
+    {95, OST_CELL_QUAD8, {0, 4, 1, 5, 2, 6, 3, 7}},
     {41, OST_CELL_TRIANGLE3, {0, 1, 2}},
     {51, OST_CELL_TRIANGLE3, {0, 1, 2}},
     {61, OST_CELL_TRIANGLE3, {0, 1, 2}},
@@ -143,7 +157,7 @@ static OstStatus read_old_nodes(Unv *unv)
 
 /* --- elements --- */
 
-/* An element's nodes, over as many lines as they take; those after the tenth are passed over. */
+/* An element's nodes, over as many lines as they take; those after the twentieth are passed over. */
 static OstStatus read_nodes_of(Unv *unv, OstGlobal count, OstGlobal nodes[MOST_NODES])
 {
     OstGlobal done = 0;

@@ -82,6 +82,14 @@ static OstStatus make_room(Field *field, int width)
     return OST_SUCCESS;
 }
 
+static void put_row(const Field *field, OstGlobal label, int column, int width, const double *value)
+{
+    const OstFileField *out = field->out;
+    const OstGlobal row = label < 0 ? -1 : ost_label_index_find(&field->rows, label);
+    for (int k = 0; row >= 0 && k < width && column + k < out->width; k++)
+        out->values[row * out->width + column + k] = value[k];
+}
+
 /* Values of the elements of a block, whose first has the place `first` + 1, or of all nodes; into `column` and those
  * after it. */
 static OstStatus read_values(Field *field, OstNetcdfRows *rows, OstLocal first, int column)
@@ -93,9 +101,12 @@ static OstStatus read_values(Field *field, OstNetcdfRows *rows, OstLocal first, 
         for (OstLocal i = 0; i < rows->count && !exodus->nc.dry; i++) {
             const OstGlobal place = first + rows->first + i + 1;
             const OstGlobal label = out->on_nodes ? ost_exodus_node(exodus, place) : ost_exodus_element(exodus, place);
-            const OstGlobal row = label < 0 ? -1 : ost_label_index_find(&field->rows, label);
-            for (int k = 0; row >= 0 && k < rows->width && column + k < out->width; k++)
-                out->values[row * out->width + column + k] = rows->real[i * rows->width + k];
+            const double *value = rows->real + i * rows->width;
+            if (!out->on_nodes && field->chunk->of_cells)
+                for (int piece = 1; piece < OST_PIECE_LABELS; piece++)
+                    put_row(field, OST_PIECE_LABELS * label + piece, column, rows->width, value);
+            else
+                put_row(field, label, column, rows->width, value);
         }
     } while (rows->count > 0);
     return OST_SUCCESS;

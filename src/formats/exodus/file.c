@@ -9,24 +9,36 @@
 #include <string.h>
 #include <strings.h>
 
-/* Types are told by their first three letters, as Exodus' own library does it, in any capitals. The nodes of tets and
- * triangles are in VTK's order. */
+/* Where Exodus' nodes of quadratic hexahedra and wedges go: it has the middles of upright edges before those of the
+ * top. */
+static const int hexahedron[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 16, 17,
+                                 18, 19, 12, 13, 14, 15, 26, 24, 25, 20, 21, 22, 23};
+static const int wedge[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11, 15, 16, 17};
+
+/* Types are told by their first three letters, as Exodus' own library does it, in any capitals. */
 static const OstExodusType types[] = {
-    {"TET", 4, 3, OST_CELL_TET4, NULL},      {"TET", 10, 3, OST_CELL_TET10, NULL},
-    {"TRI", 3, 2, OST_CELL_TRIANGLE3, NULL}, {"TRI", 6, 2, OST_CELL_TRIANGLE6, NULL},
-    {"SHE", 3, 2, OST_CELL_TRIANGLE3, NULL}, {"SHE", 6, 2, OST_CELL_TRIANGLE6, NULL},
-    {"BAR", 2, 1, OST_CELL_LINE2, NULL},     {"BAR", 3, 1, OST_CELL_LINE3, NULL},
-    {"BEA", 2, 1, OST_CELL_LINE2, NULL},     {"BEA", 3, 1, OST_CELL_LINE3, NULL},
-    {"TRU", 2, 1, OST_CELL_LINE2, NULL},     {"TRU", 3, 1, OST_CELL_LINE3, NULL},
-    {"EDG", 2, 1, OST_CELL_LINE2, NULL},     {"EDG", 3, 1, OST_CELL_LINE3, NULL},
-    {"SPH", 1, 0, OST_CELL_POINT, NULL},     {"TRI", 0, 2, OST_CELL_KINDS, NULL},
-    {"SHE", 0, 2, OST_CELL_KINDS, NULL},     {"QUA", 0, 2, OST_CELL_KINDS, NULL},
-    {"NSI", 0, 2, OST_CELL_KINDS, NULL},     {"BAR", 0, 1, OST_CELL_KINDS, NULL},
-    {"BEA", 0, 1, OST_CELL_KINDS, NULL},     {"TRU", 0, 1, OST_CELL_KINDS, NULL},
-    {"EDG", 0, 1, OST_CELL_KINDS, NULL},     {"SPH", 0, 0, OST_CELL_KINDS, NULL},
-    {"CIR", 0, 0, OST_CELL_KINDS, NULL},     {"NUL", 0, 0, OST_CELL_KINDS, NULL},
+    {"TET", 4, 3, OST_CELL_TET4, NULL},         {"TET", 10, 3, OST_CELL_TET10, NULL},
+    {"HEX", 8, 3, OST_CELL_HEX8, NULL},         {"HEX", 20, 3, OST_CELL_HEX20, hexahedron},
+    {"HEX", 27, 3, OST_CELL_HEX27, hexahedron}, {"WED", 6, 3, OST_CELL_WEDGE6, NULL},
+    {"WED", 15, 3, OST_CELL_WEDGE15, wedge},    {"WED", 18, 3, OST_CELL_WEDGE18, wedge},
+    {"PYR", 5, 3, OST_CELL_PYRAMID5, NULL},     {"PYR", 13, 3, OST_CELL_PYRAMID13, NULL},
+    {"TRI", 3, 2, OST_CELL_TRIANGLE3, NULL},    {"TRI", 6, 2, OST_CELL_TRIANGLE6, NULL},
+    {"SHE", 3, 2, OST_CELL_TRIANGLE3, NULL},    {"SHE", 6, 2, OST_CELL_TRIANGLE6, NULL},
+    {"SHE", 4, 2, OST_CELL_QUAD4, NULL},        {"SHE", 8, 2, OST_CELL_QUAD8, NULL},
+    {"SHE", 9, 2, OST_CELL_QUAD9, NULL},        {"QUA", 4, 2, OST_CELL_QUAD4, NULL},
+    {"QUA", 8, 2, OST_CELL_QUAD8, NULL},        {"QUA", 9, 2, OST_CELL_QUAD9, NULL},
+    {"BAR", 2, 1, OST_CELL_LINE2, NULL},        {"BAR", 3, 1, OST_CELL_LINE3, NULL},
+    {"BEA", 2, 1, OST_CELL_LINE2, NULL},        {"BEA", 3, 1, OST_CELL_LINE3, NULL},
+    {"TRU", 2, 1, OST_CELL_LINE2, NULL},        {"TRU", 3, 1, OST_CELL_LINE3, NULL},
+    {"EDG", 2, 1, OST_CELL_LINE2, NULL},        {"EDG", 3, 1, OST_CELL_LINE3, NULL},
+    {"SPH", 1, 0, OST_CELL_POINT, NULL},        {"TRI", 0, 2, OST_CELL_KINDS, NULL},
+    {"SHE", 0, 2, OST_CELL_KINDS, NULL},        {"QUA", 0, 2, OST_CELL_KINDS, NULL},
+    {"NSI", 0, 2, OST_CELL_KINDS, NULL},        {"BAR", 0, 1, OST_CELL_KINDS, NULL},
+    {"BEA", 0, 1, OST_CELL_KINDS, NULL},        {"TRU", 0, 1, OST_CELL_KINDS, NULL},
+    {"EDG", 0, 1, OST_CELL_KINDS, NULL},        {"SPH", 0, 0, OST_CELL_KINDS, NULL},
+    {"CIR", 0, 0, OST_CELL_KINDS, NULL},        {"NUL", 0, 0, OST_CELL_KINDS, NULL},
 };
-/* HEX, WEDGE, PYRAMID, NFACED and whatever else. */
+/* NFACED and whatever else. */
 static const OstExodusType a_solid = {"", 0, 3, OST_CELL_KINDS, NULL};
 
 enum { MOST_BLOCKS = 10000, NAME = 64 };

@@ -6,12 +6,19 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Sides of elements are numbered from 1, by the figures of the Exodus manual. Of a tet the vertex opposite each, from
- * 0: sides 1 to 4 are its nodes 1 2 4, 2 3 4, 1 4 3, 1 3 2. */
-enum { TET_SIDES = 4 };
-static const int opposite[TET_SIDES] = {2, 0, 1, 3};
+/* Sides of elements are numbered from 1, by the figures of the Exodus manual: first those beside the base, which follow
+ * its edges. Of each, its number from 0 in Abaqus's order. */
+static const struct Sides {
+    OstCellKind first, last;
+    int count, face[6];
+} sides_of_solids[] = {
+    {OST_CELL_TET4, OST_CELL_TET10, 4, {1, 2, 3, 0}},
+    {OST_CELL_PYRAMID5, OST_CELL_PYRAMID14, 5, {1, 2, 3, 4, 0}},
+    {OST_CELL_WEDGE6, OST_CELL_WEDGE18, 5, {2, 3, 4, 0, 1}},
+    {OST_CELL_HEX8, OST_CELL_HEX27, 6, {2, 3, 4, 5, 0, 1}},
+};
 
-enum { TRIANGLE_SIDES = 2 }; /* front and back; further ones are its edges */
+enum { SHELL_SIDES = 2 }; /* front and back; further ones are its edges */
 
 static const char *const nodes_of = "node_ns%d", *const elements_of = "elem_ss%d", *const sides_of = "side_ss%d";
 
@@ -69,15 +76,24 @@ static const OstExodusBlock *find_block(const OstExodus *exodus, OstGlobal place
     return &exodus->block[low];
 }
 
-/* Triangles are put whole: into the set of cells of the same name, which bounds together with that of faces. */
+static const struct Sides *sides_of_kind(OstCellKind kind)
+{
+    for (size_t k = 0; k < sizeof sides_of_solids / sizeof *sides_of_solids; k++)
+        if (kind >= sides_of_solids[k].first && kind <= sides_of_solids[k].last)
+            return &sides_of_solids[k];
+    return NULL;
+}
+
+/* Shells are put whole: into the set of cells of the same name, which bounds together with that of faces. */
 static OstStatus put_side(const OstExodus *exodus, OstCells *cells, int faces, OstGlobal place, OstGlobal side)
 {
     const OstGlobal label = ost_exodus_element(exodus, place);
-    const OstCellKind kind = label < 0 ? OST_CELL_KINDS : find_block(exodus, place)->type->kind;
+    const OstCellKind kind = label < 0 ? OST_CELL_POINT : find_block(exodus, place)->type->kind;
+    const struct Sides *solid = sides_of_kind(kind);
     int set = 0;
-    if ((kind == OST_CELL_TET4 || kind == OST_CELL_TET10) && side >= 1 && side <= TET_SIDES)
-        return ost_cells_put(cells, faces, 4 * label + opposite[side - 1]);
-    if ((kind != OST_CELL_TRIANGLE3 && kind != OST_CELL_TRIANGLE6) || side < 1 || side > TRIANGLE_SIDES) {
+    if (solid && side >= 1 && side <= solid->count)
+        return ost_cells_put(cells, faces, ost_cell_face(label, solid->face[side - 1]));
+    if (kind == OST_CELL_KINDS || ost_cell_facts[kind].dimension != 2 || side < 1 || side > SHELL_SIDES) {
         cells->missing++;
         return OST_SUCCESS;
     }

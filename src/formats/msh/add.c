@@ -29,7 +29,7 @@ OstStatus ost_msh_check_type(const OstMsh *msh, int type)
 {
     if (type >= 1 && type < OST_MSH_TYPES)
         return OST_SUCCESS;
-    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected tets (types 4 and 11) and what bounds them",
+    return OST_RAISE_MSH(&msh->cursor, "element of type %d found, expected linear or quadratic ones (types 1 to 19)",
                          type);
 }
 
@@ -113,8 +113,8 @@ OstStatus ost_msh_group(OstMsh *msh, int dimension, int tag, OstMshGroup **group
     return OST_SUCCESS;
 }
 
-/* Gmsh has the last two mid-edge nodes of a tet in the opposite order. */
-static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, int group)
+/* Room for one more tet; its nodes are to be filled in. */
+static OstStatus add_tet(OstMsh *msh, int width, OstGlobal label, int group, OstGlobal **nodes)
 {
     OstMeshChunk *chunk = msh->chunk;
     const OstLocal t = chunk->tet_count;
@@ -125,19 +125,24 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal tag, const OstGlobal 
         OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_label, msh->room));
         OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_region, msh->room));
     }
-    OstGlobal *own = chunk->tet_nodes + (size_t)t * (size_t)width;
-    OST_TRY(find_nodes(msh, width, nodes, own));
+    if (t == 0 || group != chunk->tet_region[t - 1])
+        OST_TRY(ost_msh_group(msh, 3, group, &region));
+    chunk->tet_label[t] = label;
+    chunk->tet_region[t] = group;
+    chunk->tet_count++;
+    *nodes = chunk->tet_nodes + (size_t)t * (size_t)width;
+    return OST_SUCCESS;
+}
+
+/* Gmsh has the last two mid-edge nodes of a tet in the opposite order. */
+static OstStatus find_tet(const OstMsh *msh, int width, const OstGlobal *tags, OstGlobal *own)
+{
+    OST_TRY(find_nodes(msh, width, tags, own));
     if (width == 10) {
         const OstGlobal ninth = own[8];
         own[8] = own[9];
         own[9] = ninth;
     }
-    if (t == 0 || group != chunk->tet_region[t - 1])
-        OST_TRY(ost_msh_group(msh, 3, group, &region));
-    msh->tets_out_of_order |= t > 0 && tag < chunk->tet_label[t - 1];
-    chunk->tet_label[t] = tag;
-    chunk->tet_region[t] = group;
-    chunk->tet_count++;
     return OST_SUCCESS;
 }
 
@@ -149,21 +154,54 @@ static OstStatus count_item(OstMsh *msh)
     return OST_RAISE_MSH(&msh->cursor, "elements are in too many physical groups at once; give each fewer");
 }
 
-/* A tet in several physical volumes is added once for each. */
-static OstStatus add_tets(OstMsh *msh, int width, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
-                          const int *groups)
+/* A tet in several physical volumes is added once for each. Its nodes by their tags, or, of a piece, their positions.
+ */
+static OstStatus add_tets(OstMsh *msh, int width, OstGlobal label, const OstGlobal *tags, const OstGlobal *positions,
+                          OstGlobal group_count, const int *groups)
 {
-    OST_TRY(add_tet(msh, width, tag, nodes, group_count > 0 ? abs(groups[0]) : 0));
-    for (OstGlobal i = 1; i < group_count; i++) {
-        OST_TRY(count_item(msh));
-        OST_TRY(add_tet(msh, width, tag, nodes, abs(groups[i])));
+    OstGlobal *own = NULL;
+    for (OstGlobal i = 0; i == 0 || i < group_count; i++) {
+        if (i > 0)
+            OST_TRY(count_item(msh));
+        OST_TRY(add_tet(msh, width, label, group_count > 0 ? abs(groups[i]) : 0, &own));
+        if (positions)
+            memcpy(own, positions, (size_t)width * sizeof *own);
+        else
+            OST_TRY(find_tet(msh, width, tags, own));
     }
+    return OST_SUCCESS;
+}
+
+/* The pieces of a cell, which is then counted as split. */
+static OstStatus split(OstMsh *msh, const OstMshCell *cell, OstGlobal tag, const OstGlobal *nodes, OstPieces *pieces)
+{
+    const int count = ost_cell_facts[cell->kind].nodes;
+    OstGlobal in_order[OST_MSH_MOST_NODES], positions[OST_MSH_MOST_NODES];
+    if (tag >= OST_LARGEST_LABEL / OST_PIECE_LABELS)
+        return OST_RAISE_MSH(&msh->cursor, "element tag %" PRId64 " is too large to number the tets of an element by",
+                             tag);
+    for (int n = 0; n < count; n++)
+        in_order[n] = nodes[cell->place[n]];
+    OST_TRY(find_nodes(msh, count, in_order, positions));
+    if (!msh->split.chunk)
+        ost_split_open(msh->chunk, msh->cursor.path, &msh->split);
+    return ost_split_cell(&msh->split, cell->kind, tag, positions, pieces);
+}
+
+static OstStatus add_pieces(OstMsh *msh, const OstMshCell *cell, OstGlobal tag, const OstGlobal *nodes,
+                            OstGlobal group_count, const int *groups)
+{
+    OstPieces pieces;
+    OST_TRY(split(msh, cell, tag, nodes, &pieces));
+    for (int p = 0; p < pieces.count; p++)
+        OST_TRY(add_tets(msh, msh->tet_type == OST_MSH_TET4 ? 4 : 10, -(OST_PIECE_LABELS * tag + p + 1), NULL,
+                         pieces.nodes[p], group_count, groups));
     return OST_SUCCESS;
 }
 
 /* A group of several element types is an error: the first type, and one that differs, are remembered for the message.
  */
-static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag)
+static OstStatus add_item(OstMsh *msh, int type, int shape, const OstGlobal *positions, int tag)
 {
     const OstMshType *facts = &ost_msh_types[type];
     OstMshGroup *group = NULL;
@@ -171,6 +209,7 @@ static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag
     OST_TRY(ost_msh_group(msh, facts->dimension, tag, &group));
     if (group->count == 0)
         group->type = type;
+    group->quad = shape ? shape : group->quad;
     if (group->type != type) {
         group->other_type = type;
         return OST_SUCCESS;
@@ -179,9 +218,50 @@ static OstStatus add_item(OstMsh *msh, int type, const OstGlobal *nodes, int tag
         OST_TRY(grow(msh, group->count, &group->room));
         OST_TRY(OST_RESIZE(msh->cursor.ctx, &group->nodes, (size_t)group->room * (size_t)facts->nodes));
     }
-    OST_TRY(find_nodes(msh, facts->nodes, nodes, group->nodes + (size_t)group->count * (size_t)facts->nodes));
-    group->count++;
+    memcpy(group->nodes + (size_t)group->count++ * (size_t)facts->nodes, positions,
+           (size_t)facts->nodes * sizeof *positions);
     return OST_SUCCESS;
+}
+
+static OstStatus add_to_groups(OstMsh *msh, int type, int shape, const OstGlobal *positions, OstGlobal group_count,
+                               const int *groups)
+{
+    for (OstGlobal i = 0; i < group_count; i++)
+        if (groups[i] != 0)
+            OST_TRY(add_item(msh, type, shape, positions, abs(groups[i])));
+    return OST_SUCCESS;
+}
+
+/* What bounds the body, if it is in a group. */
+static OstStatus add_items(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
+                           const int *groups)
+{
+    const OstMshCell *cell = ost_msh_cell(type);
+    OstGlobal positions[OST_MSH_MOST_NODES];
+    OstPieces pieces;
+    int wanted = 0;
+    for (OstGlobal i = 0; i < group_count; i++)
+        wanted |= groups[i] != 0;
+    if (!wanted)
+        return OST_SUCCESS;
+    if (!cell) {
+        OST_TRY(find_nodes(msh, ost_msh_types[type].nodes, nodes, positions));
+        return add_to_groups(msh, type, 0, positions, group_count, groups);
+    }
+    OST_TRY(split(msh, cell, tag, nodes, &pieces));
+    for (int p = 0; p < pieces.count; p++)
+        OST_TRY(add_to_groups(msh, ost_msh_types[type].nodes == 4 ? OST_MSH_TRIANGLE3 : OST_MSH_TRIANGLE6, type,
+                              pieces.nodes[p], group_count, groups));
+    return OST_SUCCESS;
+}
+
+int ost_msh_tet_type(int type)
+{
+    if (type == OST_MSH_TET4 || type == OST_MSH_TET10)
+        return type;
+    if (!ost_msh_cell(type) || ost_msh_types[type].dimension < 3)
+        return 0;
+    return ost_msh_types[type].nodes <= 8 ? OST_MSH_TET4 : OST_MSH_TET10;
 }
 
 OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlobal *nodes, OstGlobal group_count,
@@ -191,13 +271,15 @@ OstStatus ost_msh_add_element(OstMsh *msh, int type, OstGlobal tag, const OstGlo
     if (tag < 0)
         return OST_RAISE_MSH(&msh->cursor, "element tag %" PRId64 " found, expected 0 or more", tag);
     msh->read[type]++;
-    if (type == OST_MSH_TET4 || type == OST_MSH_TET10) {
-        if (msh->tet_type == 0)
-            msh->tet_type = type;
-        return type == msh->tet_type ? add_tets(msh, facts->nodes, tag, nodes, group_count, groups) : OST_SUCCESS;
-    }
-    for (OstGlobal i = 0; i < group_count && facts->dimension < 3; i++)
-        if (groups[i] != 0)
-            OST_TRY(add_item(msh, type, nodes, abs(groups[i])));
-    return OST_SUCCESS;
+    if (facts->dimension < 3)
+        return add_items(msh, type, tag, nodes, group_count, groups);
+    const int tet_type = ost_msh_tet_type(type);
+    if (msh->tet_type == 0)
+        msh->tet_type = tet_type;
+    if (tet_type == 0 || tet_type != msh->tet_type)
+        return OST_SUCCESS; /* refused later */
+    msh->tets_out_of_order |= tag < msh->last_tag;
+    msh->last_tag = tag;
+    return type == tet_type ? add_tets(msh, facts->nodes, tag, nodes, NULL, group_count, groups)
+                            : add_pieces(msh, ost_msh_cell(type), tag, nodes, group_count, groups);
 }

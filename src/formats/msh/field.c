@@ -20,7 +20,7 @@ typedef struct Field {
     int step, later;    /* its step; are there further ones? */
 } Field;
 
-enum { STEP, COMPONENTS, ELEMENTS, INTEGERS };
+enum { STEP, COMPONENTS, ELEMENTS, INTEGERS, MOST_COMPONENTS = 9 };
 
 static OstStatus skip_lines(OstMshCursor *cursor, const char *what)
 {
@@ -103,21 +103,29 @@ static OstStatus make_room(Field *field, int on_nodes, int width)
     return OST_SUCCESS;
 }
 
+static void put_row(const Field *field, OstGlobal label, int width, const double *value)
+{
+    const OstGlobal row = ost_label_index_find(&field->rows, label);
+    if (row >= 0)
+        memcpy(field->out->values + (size_t)row * (size_t)width, value, (size_t)width * sizeof *value);
+}
+
 /* Elements that are no tets of the mesh, and nodes of no tet, are passed over. */
 static OstStatus read_values(Field *field, int width, int count)
 {
     OstMshCursor *cursor = &field->msh.cursor;
+    double value[MOST_COMPONENTS];
     OST_TRY(ost_msh_check_count(cursor, "entries of data", count, 1 + width));
     for (int i = 0; i < count; i++) {
         int tag;
         OST_TRY(ost_msh_int(cursor, "the tag of an element or node", &tag));
-        const OstGlobal row = ost_label_index_find(&field->rows, tag);
-        for (int k = 0; k < width; k++) {
-            double value;
-            OST_TRY(ost_msh_double(cursor, "a value of an element or node", &value));
-            if (row >= 0)
-                field->out->values[(size_t)row * (size_t)width + (size_t)k] = value;
-        }
+        for (int k = 0; k < width; k++)
+            OST_TRY(ost_msh_double(cursor, "a value of an element or node", &value[k]));
+        if (!field->out->on_nodes && field->chunk->of_cells)
+            for (int piece = 1; piece < OST_PIECE_LABELS; piece++)
+                put_row(field, OST_PIECE_LABELS * (OstGlobal)tag + piece, width, value);
+        else
+            put_row(field, tag, width, value);
     }
     return OST_SUCCESS;
 }

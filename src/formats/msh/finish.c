@@ -17,22 +17,46 @@ static const char *const entity[] = {"point", "curve", "surface", "volume"};
 static OstStatus check_volume_elements(const OstMsh *msh)
 {
     OstContext *ctx = msh->cursor.ctx;
-    for (int type = 1; type < OST_MSH_TYPES; type++)
-        if (msh->read[type] > 0 && ost_msh_types[type].dimension == 3 && type != OST_MSH_TET4 && type != OST_MSH_TET10)
+    OstGlobal linear = 0, quadratic = 0;
+    for (int type = 1; type < OST_MSH_TYPES; type++) {
+        const int tets = ost_msh_tet_type(type);
+        linear += tets == OST_MSH_TET4 ? msh->read[type] : 0;
+        quadratic += tets == OST_MSH_TET10 ? msh->read[type] : 0;
+        if (msh->read[type] > 0 && ost_msh_types[type].dimension == 3 && tets == 0)
             return OST_RAISE(ctx, OST_INVALID_INPUT,
-                             "%s: holds %" PRId64 " elements of Gmsh's type '%s %d', expected tets of 4 or of 10 nodes "
-                             "only; remesh the body (gmsh -3 MODEL.geo -order 2 -o NEW.msh, without Recombine)",
+                             "%s: holds %" PRId64
+                             " elements of Gmsh's type '%s %d', expected linear or quadratic ones; "
+                             "mesh the body in order 1 or 2 (gmsh -3 MODEL.geo -order 2 -o NEW.msh)",
                              msh->cursor.path, msh->read[type], ost_msh_types[type].shape, ost_msh_types[type].nodes);
-    if (msh->read[OST_MSH_TET4] > 0 && msh->read[OST_MSH_TET10] > 0)
+    }
+    if (linear > 0 && quadratic > 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
-                         "%s: holds tets of 4 and of 10 nodes, expected one kind; mesh the whole body in one order",
-                         msh->cursor.path);
+                         "%s: holds %" PRId64 " linear and %" PRId64
+                         " quadratic solid elements, expected one kind; mesh the whole body in one order",
+                         msh->cursor.path, linear, quadratic);
     if (msh->tet_type == 0)
         return OST_RAISE(ctx, OST_INVALID_INPUT,
                          "%s: holds no tets among its %" PRId64 " elements; mesh the volume (gmsh -3 MODEL.geo -o "
                          "NEW.msh), and where the model has physical groups, put the volume into one, as Gmsh saves "
                          "nothing else (or set Mesh.SaveAll = 1)",
                          msh->cursor.path, msh->elements);
+    return OST_SUCCESS;
+}
+
+/* The pieces of element 17 are 171, 172, ..., and an element that was not split is 171. */
+static OstStatus label_pieces(OstMsh *msh)
+{
+    OstMeshChunk *chunk = msh->chunk;
+    for (OstLocal t = 0; t < chunk->tet_count; t++) {
+        OstGlobal *label = &chunk->tet_label[t];
+        if (*label >= OST_LARGEST_LABEL / OST_PIECE_LABELS)
+            return OST_RAISE(msh->cursor.ctx, OST_LIMIT_EXCEEDED,
+                             "%s: element tag %" PRId64 " is too large to number the tets of an element by",
+                             msh->cursor.path, *label);
+        *label = *label < 0 ? -*label : OST_PIECE_LABELS * *label + 1;
+    }
+    chunk->of_cells = 1;
+    ost_split_say(&msh->split);
     return OST_SUCCESS;
 }
 
@@ -120,7 +144,8 @@ static OstStatus check_group(const OstMsh *msh, const OstMshGroup *group, const 
     static const int types[2][3] = {{OST_MSH_POINT, OST_MSH_LINE2, OST_MSH_TRIANGLE3},
                                     {OST_MSH_POINT, OST_MSH_LINE3, OST_MSH_TRIANGLE6}};
     const int expected = types[msh->tet_type == OST_MSH_TET10][group->dimension];
-    const int found = group->type != expected ? group->type : group->other_type;
+    const int quad = msh->split.tets == 0 || group->type != expected ? group->quad : 0;
+    const int found = quad ? quad : group->type != expected ? group->type : group->other_type;
     if (found == 0)
         return OST_SUCCESS;
     return OST_RAISE(msh->cursor.ctx, OST_INVALID_INPUT,
@@ -188,6 +213,8 @@ OstStatus ost_msh_finish(OstMsh *msh)
     const char *path = msh->cursor.path;
     OST_TRY(check_volume_elements(msh));
     OST_TRY(size_tets(msh));
+    if (msh->split.tets > 0)
+        OST_TRY(label_pieces(msh));
     OST_TRY(make_regions(msh));
     OST_TRY(make_boundaries(msh));
     OST_TRY(ost_tets_join_same(msh->chunk, path));

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_FORMATS_MSH_MSH_H
 #define ORTHOSTAT_FORMATS_MSH_MSH_H
 
+#include "formats/cells/split.h"
 #include "formats/msh/cursor.h"
 #include "formats/serial/label_index.h"
 #include "mesh/mesh_data.h"
@@ -27,6 +28,19 @@ typedef struct OstMshType {
 } OstMshType;
 extern const OstMshType ost_msh_types[OST_MSH_TYPES];
 
+/* Types that are split, and Gmsh's place of each node of the kind that they are. */
+typedef struct OstMshCell {
+    int type;
+    OstCellKind kind;
+    signed char place[27];
+} OstMshCell;
+
+/* Local. NULL for a type that is not split. */
+const OstMshCell *ost_msh_cell(int type);
+
+/* Local. The type of the tets that a solid of this type is, or becomes; 0 for another. */
+int ost_msh_tet_type(int type);
+
 /* A line of $PhysicalNames. */
 typedef struct OstMshName {
     int dimension; /* -1: any; version 2.0 does not say */
@@ -39,6 +53,7 @@ typedef struct OstMshGroup {
     int dimension, tag;
     int number;           /* of its region or boundary; -1 at first */
     int type, other_type; /* of the first element; of one of another type, or 0 */
+    int quad;             /* that of quadrilaterals, which are triangles here; or 0 */
     OstLocal count, room;
     OstGlobal *nodes; /* count × nodes of the type: positions in the chunk */
 } OstMshGroup;
@@ -50,7 +65,8 @@ typedef struct OstMshBytes {
 } OstMshBytes;
 enum { OST_MSH_SECTIONS = 8, OST_MSH_LONGEST_NAME = 64 };
 
-/* A .msh file while it is read. tet_region then holds physical tags, 0 for none. */
+/* A .msh file while it is read. tet_region then holds physical tags, 0 for none, and labels of pieces of other solids
+ * are negative. */
 typedef struct OstMsh {
     OstMshCursor cursor;
     int version; /* 10, 20, 21, 22, 30, 40 or 41 */
@@ -63,6 +79,8 @@ typedef struct OstMsh {
     OstGlobal read[OST_MSH_TYPES]; /* elements of each type */
     int tet_type;                  /* of the first tet */
     int tets_out_of_order;         /* their tags do not ascend */
+    OstGlobal last_tag;            /* of a tet */
+    OstSplit split;                /* of cells that are no tets */
     int name_count;
     OstMshName *name;
     int group_count;

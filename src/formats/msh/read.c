@@ -236,6 +236,7 @@ static void close_msh(OstMsh *msh)
     OST_FREE(msh->entity);
     OST_FREE(msh->entity_start);
     OST_FREE(msh->entity_group);
+    ost_split_close(&msh->split);
     ost_label_index_clear(&msh->nodes);
     ost_label_index_clear(&msh->entities);
     ost_msh_close(&msh->cursor);

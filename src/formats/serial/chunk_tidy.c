@@ -26,6 +26,7 @@ static void number_by_position(OstMeshChunk *chunk, const char *path, OstGlobal 
     for (OstLocal t = 0; t < chunk->tet_count; t++)
         chunk->tet_label[t] = t + 1;
     chunk->relabelled = 1;
+    chunk->of_cells = 0;
     ost_warn(chunk->ctx, "%s: element tag %" PRId64 " is given to several tets; tets are numbered from 1 as they come",
              path, repeated);
 }

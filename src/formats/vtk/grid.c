@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/small.h"
 #include "formats/vtk/vtk.h"
 
 #include <inttypes.h>
@@ -25,18 +26,45 @@ typedef struct CellType {
     OstCellKind kind; /* where `nodes` is not 0 */
     int nodes, dimension;
 } CellType;
+enum { VTK_PIXEL = 8, VTK_VOXEL = 11, VTK_LAGRANGE_HEXAHEDRON = 72 };
 static const CellType cell_types[VTK_TYPES] = {
-    [1] = {OST_CELL_POINT, 1, 0},      [3] = {OST_CELL_LINE2, 2, 1},   [5] = {OST_CELL_TRIANGLE3, 3, 2},
-    [10] = {OST_CELL_TET4, 4, 3},      [21] = {OST_CELL_LINE3, 3, 1},  [22] = {OST_CELL_TRIANGLE6, 6, 2},
-    [24] = {OST_CELL_TET10, 10, 3},    [68] = {OST_CELL_LINE3, 3, 1}, /* Lagrange's, of second order */
-    [69] = {OST_CELL_TRIANGLE6, 6, 2}, [71] = {OST_CELL_TET10, 10, 3}, [11] = {.dimension = 3},
-    [12] = {.dimension = 3},           [13] = {.dimension = 3},        [14] = {.dimension = 3},
-    [15] = {.dimension = 3},           [16] = {.dimension = 3},        [25] = {.dimension = 3},
-    [26] = {.dimension = 3},           [27] = {.dimension = 3},        [29] = {.dimension = 3},
-    [31] = {.dimension = 3},           [32] = {.dimension = 3},        [33] = {.dimension = 3},
-    [37] = {.dimension = 3},           [41] = {.dimension = 3},        [42] = {.dimension = 3},
-    [72] = {.dimension = 3},           [73] = {.dimension = 3},        [74] = {.dimension = 3},
-    [78] = {.dimension = 3},           [79] = {.dimension = 3},        [80] = {.dimension = 3},
+    [1] = {OST_CELL_POINT, 1, 0},
+    [3] = {OST_CELL_LINE2, 2, 1},
+    [5] = {OST_CELL_TRIANGLE3, 3, 2},
+    [10] = {OST_CELL_TET4, 4, 3},
+    [21] = {OST_CELL_LINE3, 3, 1},
+    [22] = {OST_CELL_TRIANGLE6, 6, 2},
+    [24] = {OST_CELL_TET10, 10, 3},
+    [68] = {OST_CELL_LINE3, 3, 1}, /* Lagrange's, of second order */
+    [69] = {OST_CELL_TRIANGLE6, 6, 2},
+    [71] = {OST_CELL_TET10, 10, 3},
+    [VTK_VOXEL] = {OST_CELL_HEX8, 8, 3},
+    [12] = {OST_CELL_HEX8, 8, 3},
+    [13] = {OST_CELL_WEDGE6, 6, 3},
+    [14] = {OST_CELL_PYRAMID5, 5, 3},
+    [25] = {OST_CELL_HEX20, 20, 3},
+    [26] = {OST_CELL_WEDGE15, 15, 3},
+    [27] = {OST_CELL_PYRAMID13, 13, 3},
+    [29] = {OST_CELL_HEX27, 27, 3},
+    [32] = {OST_CELL_WEDGE18, 18, 3},
+    [VTK_LAGRANGE_HEXAHEDRON] = {OST_CELL_HEX27, 27, 3},
+    [73] = {OST_CELL_WEDGE18, 18, 3},
+    [VTK_PIXEL] = {OST_CELL_QUAD4, 4, 2},
+    [9] = {OST_CELL_QUAD4, 4, 2},
+    [23] = {OST_CELL_QUAD8, 8, 2},
+    [28] = {OST_CELL_QUAD9, 9, 2},
+    [70] = {OST_CELL_QUAD9, 9, 2},
+    [15] = {.dimension = 3},
+    [16] = {.dimension = 3},
+    [31] = {.dimension = 3},
+    [33] = {.dimension = 3},
+    [37] = {.dimension = 3},
+    [41] = {.dimension = 3},
+    [42] = {.dimension = 3},
+    [74] = {.dimension = 3},
+    [78] = {.dimension = 3},
+    [79] = {.dimension = 3},
+    [80] = {.dimension = 3},
     [81] = {.dimension = 3},
 };
 
@@ -143,12 +171,44 @@ static const OstVtkArray *region_array(const OstVtkGrid *grid)
     return NULL;
 }
 
+static void swap(OstGlobal *a, OstGlobal *b)
+{
+    const OstGlobal kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* 0 if a point is none of the file, which is refused later. */
+static double distance_from_middle(const OstVtkGrid *grid, const OstGlobal *nodes, int middle, int a, int b)
+{
+    double off[3];
+    if (nodes[middle] > grid->points || nodes[a] > grid->points || nodes[b] > grid->points)
+        return 0.0;
+    for (int d = 0; d < 3; d++)
+        off[d] = grid->coordinates[3 * (nodes[middle] - 1) + d] -
+                 0.5 * (grid->coordinates[3 * (nodes[a] - 1) + d] + grid->coordinates[3 * (nodes[b] - 1) + d]);
+    return ost_norm3(off);
+}
+
+/* Pixels and voxels go row by row. Before its format 2.2 VTK had the last two edges of a Lagrange hexahedron the other
+ * way round, and not all programs state the format that they write. */
+static void reorder(const OstVtkGrid *grid, int type, OstGlobal *nodes)
+{
+    if (type == VTK_PIXEL || type == VTK_VOXEL)
+        swap(&nodes[2], &nodes[3]);
+    if (type == VTK_VOXEL)
+        swap(&nodes[6], &nodes[7]);
+    if (type == VTK_LAGRANGE_HEXAHEDRON &&
+        distance_from_middle(grid, nodes, 18, 3, 7) < distance_from_middle(grid, nodes, 18, 2, 6))
+        swap(&nodes[18], &nodes[19]);
+}
+
 static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal group, OstCells *cells)
 {
     const OstGlobal start = cell > 0 ? grid->end[cell - 1] : 0, count = grid->end[cell] - start;
     const int type = grid->type[cell];
     const CellType *facts = type < VTK_TYPES ? &cell_types[type] : &cell_types[0];
-    OstGlobal nodes[10];
+    OstGlobal nodes[27];
     char what[32];
     snprintf(what, sizeof what, "of VTK's type %d", type);
     if (facts->nodes == 0 || (count != facts->nodes && type >= 68)) {
@@ -161,6 +221,7 @@ static OstStatus add_cell(const OstVtkGrid *grid, OstGlobal cell, OstGlobal grou
                          type, count, facts->nodes);
     for (OstGlobal i = 0; i < count; i++)
         nodes[i] = grid->connectivity[start + i] + 1;
+    reorder(grid, type, nodes);
     return ost_cells_add(cells, facts->kind, cell + 1, group, nodes);
 }
 
@@ -241,19 +302,21 @@ static OstStatus take_field(const OstVtkGrid *grid, const OstMeshChunk *chunk, O
     if (!array)
         return OST_SUCCESS;
     const OstGlobal count = array->on_points ? chunk->node_count : chunk->tet_count;
-    const OstGlobal *label = array->on_points ? chunk->node_label : chunk->tet_label;
+    const OstGlobal *labels = array->on_points ? chunk->node_label : chunk->tet_label;
     const size_t width = (size_t)array->components;
     field->found = 1;
     field->on_nodes = array->on_points;
     field->width = array->components;
     OST_TRY(OST_NEW(grid->ctx, &field->values, (size_t)count * width));
     for (OstGlobal i = 0; i < count; i++) {
-        if (label[i] < 1 || label[i] > array->tuples)
+        const OstGlobal label = array->on_points ? labels[i] : ost_cell_label(chunk->of_cells, labels[i]);
+        if (array->on_points && label > grid->points)
+            continue; /* a node in the middle of a diagonal: a tet takes the mean of its vertices */
+        if (label < 1 || label > array->tuples)
             return OST_RAISE(grid->ctx, OST_INVALID_INPUT,
                              "%s: '%s' has %" PRId64 " entries, and entry %" PRId64 " is asked for", grid->path,
-                             array->name, array->tuples, label[i]);
-        memcpy(field->values + (size_t)i * width, array->values + (size_t)(label[i] - 1) * width,
-               width * sizeof(double));
+                             array->name, array->tuples, label);
+        memcpy(field->values + (size_t)i * width, array->values + (size_t)(label - 1) * width, width * sizeof(double));
     }
     return OST_SUCCESS;
 }

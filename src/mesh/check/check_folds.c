@@ -102,12 +102,14 @@ static OstStatus straighten(OstMesh *mesh, const char *folded, OstGlobal *moved)
 
 static OstStatus raise_fold(const OstMesh *mesh, const Folds *found)
 {
+    char cell[OST_CELL_WORDS];
     return OST_RAISE(
         mesh->ctx, OST_INVALID_INPUT,
-        "tet %lld with curved edges folds over at its vertex %lld, the worst of %lld such tets; give "
+        "tet %lld%s with curved edges folds over at its vertex %lld, the worst of %lld such tets; give "
         "them straight edges (element: {straighten: true} in a case, --straighten of 'orthostat mesh'), or refine "
         "the mesh where it is made",
-        (long long)found->tet, (long long)found->vertex, (long long)found->count);
+        (long long)found->tet, ost_cell_words(mesh, found->tet, cell), (long long)found->vertex,
+        (long long)found->count);
 }
 
 /* A straight edge may fold a tet beside it that was not: again, until none folds or nothing moves. */

@@ -36,18 +36,20 @@ static double flat_volume(const double *coordinates, const OstLocal *nodes)
 /* The cube of a length below 1e-102 or above 1e102 underflows or overflows. */
 static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad)
 {
+    char cell[OST_CELL_WORDS];
+    ost_cell_words(mesh, label, cell);
     if (!(flat >= DBL_MIN && isfinite(flat) && isfinite(volume)))
         return OST_RAISE(
             mesh->ctx, OST_INVALID_INPUT,
-            "tet %lld has a volume of %g, beyond what double precision holds; choose another unit of length",
-            (long long)label, volume);
+            "tet %lld%s has a volume of %g, beyond what double precision holds; choose another unit of length",
+            (long long)label, cell, volume);
     return OST_RAISE(
         mesh->ctx, OST_INVALID_INPUT,
-        "tet %lld is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
+        "tet %lld%s is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
         "rounding of coordinates takes); mend the mesh: %lld of its tets are inverted or flat, and 'orthostat mesh "
         "FILE NEW --orient' turns the "
         "inverted ones",
-        (long long)label, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
+        (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
 }
 
 /* The message names the bad tet with the lowest label of all ranks. */

@@ -21,6 +21,7 @@ static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
 {
     mesh->nodes_per_tet = chunk->nodes_per_tet;
     mesh->fields = chunk->fields;
+    mesh->of_cells = chunk->of_cells;
     mesh->global_nodes = chunk->global_nodes;
     mesh->global_tets = chunk->global_tets;
     mesh->regions = chunk->regions;

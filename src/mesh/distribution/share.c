@@ -12,7 +12,7 @@ typedef struct Outline {
     OstGlobal nodes, tets;
     int nodes_per_tet;
     int region_count, boundary_count;
-    int has_node_labels, has_tet_labels;
+    int has_node_labels, has_tet_labels, of_cells;
     int text_bytes; /* of all names with their terminating zeros, regions first */
 } Outline;
 
@@ -40,6 +40,7 @@ static OstStatus outline_chunk(const OstMeshChunk *chunk, Outline *outline)
     outline->boundary_count = chunk->boundary_count;
     outline->has_node_labels = chunk->node_label != NULL;
     outline->has_tet_labels = chunk->tet_label != NULL;
+    outline->of_cells = chunk->of_cells;
     outline->text_bytes = (int)bytes;
     return OST_SUCCESS;
 }
@@ -98,6 +99,7 @@ static OstStatus create_empty(OstContext *ctx, const Outline *outline, const cha
     OST_TRY(OST_NEW(ctx, &made, 1));
     made->ctx = ctx;
     made->nodes_per_tet = outline->nodes_per_tet;
+    made->of_cells = outline->of_cells;
     made->global_nodes = made->first_node = outline->nodes;
     made->global_tets = made->first_tet = outline->tets;
     OST_TRY_DONE(allocate_nothing(ctx, outline, made));

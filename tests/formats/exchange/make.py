@@ -231,6 +231,93 @@ def as_from_cae(kind):
         print("*End Assembly\n*Material, name=Wood\n*Elastic\n 1000., 0.3\n*Step\n*Static\n1., 1.\n*Boundary\nEnd, 1, 1, 0.1\n*End Step", file=out)
 
 
+TYPES = {"quad": 3, "tetra": 4, "hexahedron": 5, "wedge": 6, "pyramid": 7}  # Gmsh's numbers
+
+
+def cells(with_pyramids):
+    """The two cubes of other solids: on the left a hexahedron, on the right pyramids, of which the lowest is two tets, then
+    two wedges; without pyramids a second hexahedron in their place."""
+    places = [(x, y, z) for x in (0, 1, 1.5, 2) for y in (0, 1) for z in (0, 1)] + [(1.25, 0.5, 0.5)] * with_pyramids
+    order = np.random.default_rng(8).permutation(len(places))  # diagonals go by the numbers of nodes
+    number = {places[p]: n for n, p in enumerate(order)}
+    at = lambda *names: [number[n] for n in names]
+    corners = lambda a, b: [(a, 0, 0), (b, 0, 0), (b, 1, 0), (a, 1, 0), (a, 0, 1), (b, 0, 1), (b, 1, 1), (a, 1, 1)]
+    middle, right, centre = corners(1, 1.5), corners(1.5, 2), (1.25, 0.5, 0.5)
+    found = [("hexahedron", 11, at(*corners(0, 1)))]
+    if with_pyramids:
+        for face in ((4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)):
+            found.append(("pyramid", 12, at(*(middle[v] for v in face), centre)))
+        found += [("tetra", 12, at(middle[a], middle[b], middle[c], centre)) for a, b, c in ((0, 1, 2), (0, 2, 3))]
+    else:
+        found.append(("hexahedron", 12, at(*middle)))
+    for a, b, c in ((0, 1, 2), (0, 2, 3)):
+        found.append(("wedge", 12, at(*(right[v] for v in (a, b, c, a + 4, b + 4, c + 4)))))
+    found.append(("quad", 7, at((0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0))))
+    return np.array([places[p] for p in order], dtype=float), sorted(found, key=lambda cell: (cell[1], list(TYPES).index(cell[0])))
+
+
+def other_solids():
+    for with_pyramids, incomplete, name, endings in (
+            (True, None, "linear", ("bdf", "vtk", "msh")), (False, None, "bricks-linear", ("inp", "unv")),
+            (True, 1, "serendipity", ("msh",)), (False, 1, "bricks-serendipity", ("inp", "bdf", "unv", "vtk")),
+            (True, 0, "full", ("msh",)), (False, 0, "bricks-full", ("vtk",))):  # what Gmsh can write of them
+        points, found = cells(with_pyramids)
+        gmsh.initialize([])
+        gmsh.option.setNumber("General.Verbosity", 1)
+        for dimension, tag in ((2, 7), (3, 11), (3, 12)):
+            gmsh.model.addDiscreteEntity(dimension, tag)
+            gmsh.model.addPhysicalGroup(dimension, [tag], tag)
+            gmsh.model.setPhysicalName(dimension, tag, {7: "clamp", 11: "left", 12: "right"}[tag])
+        gmsh.model.mesh.addNodes(3, 11, list(range(1, len(points) + 1)), points.ravel())
+        for n, (shape, tag, nodes) in enumerate(found, 1):
+            gmsh.model.mesh.addElementsByType(tag, TYPES[shape], [n], [v + 1 for v in nodes])
+        if incomplete is not None:
+            gmsh.option.setNumber("Mesh.SecondOrderIncomplete", incomplete)
+            gmsh.model.mesh.setOrder(2)
+        for ending in endings:
+            gmsh.write(os.path.join(HERE, f"solids-{name}.{ending}"))
+        gmsh.finalize()
+    points, found = cells(True)
+    blocks = [(shape, np.array([nodes])) for shape, _, nodes in found]
+    groups = [np.array([tag]) for _, tag, _ in found]
+    modulus = [np.array([1000.0 + 1000.0 * points[nodes].mean(axis=0)[0]]) for _, _, nodes in found]
+    meshio.write(os.path.join(HERE, "solids-meshio.vtu"), meshio.Mesh(
+        points, blocks, cell_data={"gmsh:physical": groups, "modulus": modulus}, point_data={"density": 1.0 + points[:, 0]}))
+    meshio.write(os.path.join(HERE, "solids-meshio.mesh"), meshio.Mesh(points, blocks, cell_data={"medit:ref": groups}))
+
+
+EDGES = {"quad": "01 12 23 30", "tetra": "01 12 02 03 13 23", "pyramid": "01 12 23 30 04 14 24 34",
+         "wedge": "01 12 20 34 45 53 03 14 25", "hexahedron": "01 12 23 30 45 56 67 74 04 15 26 37"}  # of VTK
+
+
+def solids_by_vtk():
+    from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+    types = {"quad": 23, "tetra": 24, "hexahedron": 25, "wedge": 26, "pyramid": 27}
+    points, found = cells(True)
+    grid, places, region, middles = vtkUnstructuredGrid(), vtkPoints(), vtkIntArray(), {}
+    region.SetName("region")
+    for point in points:
+        places.InsertNextPoint(*point)
+    for shape, tag, nodes in found:
+        nodes, edges = list(map(int, nodes)), EDGES[shape].split()
+        for a, b in edges:
+            ends = frozenset((nodes[int(a)], nodes[int(b)]))
+            if ends not in middles:
+                middles[ends] = places.InsertNextPoint(*points[list(ends)].mean(axis=0))
+            nodes.append(middles[ends])
+        grid.InsertNextCell(types[shape], len(nodes), nodes)
+        region.InsertNextValue(tag)
+    grid.SetPoints(places)
+    grid.GetCellData().AddArray(region)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(os.path.join(HERE, "solids-vtk.vtu"))
+    writer.SetDataModeToBinary()
+    writer.Write()
+
+
 if __name__ == "__main__":
     by_gmsh()
     by_meshio()
@@ -240,3 +327,5 @@ if __name__ == "__main__":
     by_tetgen()
     for order in SOURCES:
         as_from_cae(order)
+    other_solids()
+    solids_by_vtk()
