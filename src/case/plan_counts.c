@@ -86,7 +86,7 @@ static int shape_extents(const OstCase *c, double length[3], double cells[3])
                3 * sizeof *length);
         memcpy(cells, (double[]){tube->radial, tube->around, tube->axial}, 3 * sizeof *cells);
     } else if (c->mesh_kind == OST_MESH_SECTOR) {
-        const double arc = 0.5 * sector->angle * (sector->radii[1] + sector->radii[0]);
+        const double arc = pi / 360.0 * sector->angle * (sector->radii[1] + sector->radii[0]);
         memcpy(length, (double[]){sector->radii[1] - sector->radii[0], arc, sector->length}, 3 * sizeof *length);
         memcpy(cells, (double[]){sector->radial, sector->around, sector->axial}, 3 * sizeof *cells);
     } else if (c->mesh_kind == OST_MESH_OCTANT) {

@@ -148,6 +148,19 @@ static void thin_walls_take_more_iterations(void **state)
     }
 }
 
+/* Cells of a quarter of a tube, 0.1 thick: arcs of pi / 2 × 1.05 / 11, refined once. */
+static void cells_of_shapes_have_a_slenderness(void **state)
+{
+    (void)state;
+    make_plan(
+        "sector: {axis: z, length: 3, radii: [1, 1.1], angle: 90, divisions: {around: 11, radial: 1, axial: 20}}\n"
+        "  refine: 1",
+        2, USUAL, "");
+    assert_close(plan.slenderness, sqrt(acos(0.0) * 1.05 / 22.0 * 3.0 / 40.0) / 0.1, 1e-12);
+    assert_close(plan.cells_across, 2.0, 0.0);
+    ost_case_destroy(&c);
+}
+
 static void few_unknowns_are_factored(void **state)
 {
     (void)state;
@@ -276,6 +289,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_solid_body_costs_more_an_unknown),
     cmocka_unit_test(what_is_hard_takes_more),
     cmocka_unit_test(thin_walls_take_more_iterations),
+    cmocka_unit_test(cells_of_shapes_have_a_slenderness),
     cmocka_unit_test(few_unknowns_are_factored),
     cmocka_unit_test(ranks_share_the_work),
     cmocka_unit_test(rates_lie_between_those_measured),
