@@ -46,6 +46,17 @@ static OstStatus seconds_since(OstContext *ctx, double start, double *seconds)
     return OST_MPI(ctx, MPI_Bcast(seconds, 1, MPI_DOUBLE, 0, ost_comm(ctx)));
 }
 
+/* Of the last level, and of the adjoint problems of watched reactions that it is solved for if it stays the last: each
+ * takes about as long. */
+static double seconds_to_end(const OstAdaption *adaption)
+{
+    const OstCase *c = &adaption->stage->c;
+    int reactions = 0;
+    for (int w = 0; w < c->watch_count; w++)
+        reactions += c->watches[w].kind == OST_WATCH_REACTION;
+    return (1.0 + reactions) * adaption->level[adaption->count - 1].seconds;
+}
+
 /* By how much the limits allow the next mesh to grow, and which of them is the narrower. */
 static OstStatus allowed_growth(const OstAdaption *adaption, double start, double *growth, OstAdaptEnd *end)
 {
@@ -53,7 +64,7 @@ static OstStatus allowed_growth(const OstAdaption *adaption, double start, doubl
     double elapsed = 0.0;
     OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
     const double by_time =
-        pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(last->seconds, 1e-6), 1.0 / seconds_power);
+        pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(seconds_to_end(adaption), 1e-6), 1.0 / seconds_power);
     const double by_memory = adaption->limits.bytes / (memory_beside * last->bytes);
     *growth = fmin(by_time, by_memory);
     *end = by_time < by_memory ? OST_ADAPT_OUT_OF_TIME : OST_ADAPT_OUT_OF_MEMORY;
@@ -106,9 +117,9 @@ static void foretell(OstAdaption *adaption)
     const double growth = growth_to_meet(adaption, adaption->rate);
     const double room = fmax(adaption->limits.bytes / (memory_beside * last->bytes), 1.0);
     adaption->reach = error_of(last) * pow(room, -adaption->rate);
-    adaption->reach_seconds = pow(room, seconds_power) * last->seconds;
+    adaption->reach_seconds = pow(room, seconds_power) * seconds_to_end(adaption);
     adaption->needed_unknowns = growth * (double)last->unknowns;
-    adaption->needed_seconds = pow(growth, seconds_power) * last->seconds;
+    adaption->needed_seconds = pow(growth, seconds_power) * seconds_to_end(adaption);
     adaption->needed_bytes = memory_beside * growth * last->bytes;
 }
 

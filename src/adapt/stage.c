@@ -7,6 +7,8 @@
 #include "recovery/recovery.h"
 #include "solve/strategy.h"
 
+#include <string.h>
+
 OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
 {
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, stage, 1)));
@@ -14,10 +16,17 @@ OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
     return OST_SUCCESS;
 }
 
+static void release_analysis(OstStage *stage)
+{
+    ost_analysis_destroy(&stage->analysis);
+    ost_problem_destroy(&stage->problem);
+}
+
 void ost_stage_destroy(OstStage **stage)
 {
     if (!*stage)
         return;
+    release_analysis(*stage);
     OST_FREE((*stage)->start);
     OST_FREE((*stage)->fall);
     OST_FREE((*stage)->before);
@@ -68,25 +77,47 @@ static OstStatus learn(OstStage *stage)
 
 OstStatus ost_stage_solve(OstStage *stage)
 {
-    OstProblem *problem = NULL;
-    OstAnalysis *analysis = NULL;
-    OstStatus status = ost_scene_problem(stage->scene, &problem);
+    OstStatus status = ost_scene_problem(stage->scene, &stage->problem);
     if (status == OST_SUCCESS)
-        status = ost_analysis_create(problem, &stage->c.solver, &analysis);
+        status = ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis);
     if (status == OST_SUCCESS) {
-        analysis->start = stage->start;
-        status = ost_analysis_solve(analysis, 1U << OST_FIELD_ERROR, &stage->result);
+        stage->analysis->start = stage->start;
+        stage->analysis->leaves_reactions = 1;
+        status = ost_analysis_solve(stage->analysis, 1U << OST_FIELD_ERROR, &stage->result);
+        stage->analysis->start = NULL;
     }
     if (status == OST_SUCCESS && stage->result->answer.known)
         status = ost_agree(stage->ctx, learn(stage));
-    ost_analysis_destroy(&analysis);
-    ost_problem_destroy(&problem);
     OST_FREE(stage->start);
     return status;
 }
 
+static int watches_reaction(const OstCase *c)
+{
+    int any = 0;
+    for (int w = 0; w < c->watch_count; w++)
+        any |= c->watches[w].kind == OST_WATCH_REACTION;
+    return any;
+}
+
+/* Once more, from the answer: the analysis has been released for a finer level, which failed. */
+static OstStatus solve_again(OstStage *stage)
+{
+    const size_t size = 3 * (size_t)stage->scene->mesh->node_count;
+    OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &stage->start, size)));
+    memcpy(stage->start, stage->result->displacement, size * sizeof *stage->start);
+    ost_result_destroy(&stage->result);
+    OST_FREE(stage->fall);
+    return ost_stage_solve(stage);
+}
+
 OstStatus ost_stage_finish(OstStage *stage)
 {
+    if (!stage->analysis && watches_reaction(&stage->c))
+        OST_TRY(solve_again(stage));
+    if (stage->analysis)
+        OST_TRY(ost_analysis_find_reactions(stage->analysis, stage->result));
+    release_analysis(stage);
     stage->result->asked = ost_scene_result_fields(stage->scene);
     return ost_agree(stage->ctx, ost_result_recover(stage->result, stage->result->asked));
 }
@@ -155,6 +186,7 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 {
     OstContext *ctx = stage->ctx;
     OstMeshChunk *chunk = NULL;
+    release_analysis(stage);
     next->c = stage->c;
     next->c.order = marking->order;
     next->c.refinement = 0;

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ADAPT_STAGE_H
 
 #include "adapt/mark.h"
+#include "orthostat/analysis.h"
 #include "orthostat/refine.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
@@ -14,6 +15,8 @@ typedef struct Stage {
     OstScene *scene;
     OstBisection *bisection; /* of the scene's mesh; the finest level has it */
     double *start;           /* the answer of the level before, on this mesh; or NULL */
+    OstProblem *problem;     /* with the analysis, until the next level is made: the last one finds reactions' errors */
+    OstAnalysis *analysis;
     OstResult *result;
     double *fall;   /* of each own tet's share of the squared error, expected of its next cuts */
     double *before; /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
@@ -33,7 +36,8 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 /* Solves, and estimates the error. */
 OstStatus ost_stage_solve(OstStage *stage);
 
-/* Completes the result with the fields that the case asks for. */
+/* Completes the result of the last level: errors of watched reactions, which the others do without, and the fields that
+ * the case asks for. */
 OstStatus ost_stage_finish(OstStage *stage);
 
 #endif

@@ -37,6 +37,9 @@ typedef struct OstPlan {
     OstGlobal nodes, tets; /* of the mesh as given */
     int quadratic;
     OstMeshCounts counts;
+    double slenderness;   /* of a shape's cells: length over the body's thickness; 0: not known */
+    double cells_across;  /* and cells through that */
+    int bends;            /* would a thin wall bend? Not a curved one under loads that are spread: it is a membrane */
     OstPlanLevels levels; /* zeros where multigrid is not planned */
     OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */
     int least_ranks;      /* predicted: on fewer ranks, one would hold more than it can number */
@@ -82,6 +85,10 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 /* Local. Raises OST_LIMIT_EXCEEDED with the limit if Epetra and ML cannot number the unknowns of so many nodes on any
  * number of ranks; OST_INVALID_INPUT if the case expects its mesh from a program. */
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
+
+/* Local. How long the cells of a shape are over its thickness, across the direction in which it is thinnest, and cells
+ * through that; zeros for a mesh file. */
+void ost_plan_shape_slenderness(const OstCase *c, double *slenderness, double *across);
 
 /* Local. Faces on the surface of a shape; 0 for a mesh file. */
 double ost_plan_shape_surface(const OstCase *c);

@@ -2,6 +2,7 @@
 #include "case/plan.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Surface faces of a compact body of which nothing else is known. */
 static double compact_surface(double vertices)
@@ -70,6 +71,53 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets)
     }
     *nodes = bounded(points);
     *tets = bounded(6.0 * cells * fine * fine * fine);
+}
+
+/* Lengths of the body, and numbers of cells, along three directions; 0 for a mesh file. */
+static int shape_extents(const OstCase *c, double length[3], double cells[3])
+{
+    const OstTubeShape *tube = &c->tube;
+    const OstSectorShape *sector = &c->sector;
+    const OstOctantShape *octant = &c->octant;
+    const double pi = acos(-1.0);
+    if (c->mesh_kind == OST_MESH_TUBE) {
+        memcpy(length,
+               (double[]){tube->radii[1] - tube->radii[0], pi * (tube->radii[1] + tube->radii[0]), tube->length},
+               3 * sizeof *length);
+        memcpy(cells, (double[]){tube->radial, tube->around, tube->axial}, 3 * sizeof *cells);
+    } else if (c->mesh_kind == OST_MESH_SECTOR) {
+        const double arc = pi / 360.0 * sector->angle * (sector->radii[1] + sector->radii[0]);
+        memcpy(length, (double[]){sector->radii[1] - sector->radii[0], arc, sector->length}, 3 * sizeof *length);
+        memcpy(cells, (double[]){sector->radial, sector->around, sector->axial}, 3 * sizeof *cells);
+    } else if (c->mesh_kind == OST_MESH_OCTANT) {
+        const double arc = 0.25 * pi * (octant->radii[1] + octant->radii[0]);
+        memcpy(length, (double[]){octant->radii[1] - octant->radii[0], arc, arc}, 3 * sizeof *length);
+        memcpy(cells, (double[]){octant->radial, 2.0 * octant->around, 2.0 * octant->around}, 3 * sizeof *cells);
+    } else if (c->mesh_kind == OST_MESH_BLOCK) {
+        for (int i = 0; i < 3; i++) {
+            length[i] = c->block.size[i];
+            cells[i] = c->block.divisions[i];
+        }
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+void ost_plan_shape_slenderness(const OstCase *c, double *slenderness, double *across)
+{
+    const double fine = (double)(1 << c->refinement);
+    double length[3], cells[3];
+    int thin = 0;
+    *slenderness = *across = 0.0;
+    if (!shape_extents(c, length, cells))
+        return;
+    for (int i = 1; i < 3; i++)
+        if (length[i] < length[thin])
+            thin = i;
+    const int a = (thin + 1) % 3, b = (thin + 2) % 3;
+    *across = fine * cells[thin];
+    *slenderness = sqrt(length[a] / cells[a] * length[b] / cells[b]) / (fine * length[thin]);
 }
 
 static double faces_of_box(double a, double b, double c)

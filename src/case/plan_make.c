@@ -82,6 +82,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->quadratic = mesh->quadratic;
     plan->nodes = mesh->nodes;
     plan->tets = mesh->tets;
+    ost_plan_shape_slenderness(c, &plan->slenderness, &plan->cells_across);
     plan->unknowns = 3 * mesh->nodes;
     plan->facts.unknowns = plan->unknowns;
     if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
@@ -110,6 +111,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
+    plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE);
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);
 }

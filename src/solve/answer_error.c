@@ -118,6 +118,11 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
     return OST_SUCCESS;
 }
 
+static int finds_reactions(const OstAnalysis *analysis)
+{
+    return !analysis->leaves_reactions && ost_reactions_have_adjoint(analysis->problem);
+}
+
 /* Adjoint problems of large rotations need the stiffness at the answer, not that of the last correction. Where that is
  * no good, their solves say so. */
 static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult *result)
@@ -125,7 +130,7 @@ static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult
     OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     const OstFormulation formulation = problem->formulation;
-    if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || ost_reactions_have_adjoint(problem)))
+    if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || finds_reactions(analysis)))
         return OST_SUCCESS;
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
     OstStatus status = ost_problem_stiffness(problem, t, result->displacement, NULL);
@@ -172,7 +177,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
         OST_TRY_DONE(move_stiffness(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))
         OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
-    if (result->answer.known)
+    if (result->answer.known && !analysis->leaves_reactions)
         OST_TRY_DONE(estimate_reactions(analysis, estimate, t, result));
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
@@ -193,11 +198,28 @@ OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *resu
     OstProblem state = *analysis->problem; /* with the answer's pressure, if it has one */
     state.field = result->field;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    const int has_all =
-        result->answer.known && !asks_of_quantity(analysis->problem) && !watches_reaction(analysis->problem);
+    const int wants_reactions = !analysis->leaves_reactions && watches_reaction(analysis->problem);
+    const int has_all = result->answer.known && !asks_of_quantity(analysis->problem) && !wants_reactions;
     const int needs_own = !has_all && !analysis->estimate;
     OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
     OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
+    ost_estimate_destroy(&estimate);
+    ost_ledger_leave(analysis->ctx);
+    return status;
+}
+
+OstStatus ost_analysis_find_reactions(OstAnalysis *analysis, OstResult *result)
+{
+    OstEstimate *estimate = NULL;
+    OstProblem state = *analysis->problem;
+    if (!analysis->leaves_reactions || !result->answer.known || !watches_reaction(analysis->problem))
+        return OST_SUCCESS;
+    analysis->leaves_reactions = 0;
+    state.field = result->field;
+    ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
+    OstStatus status = ost_estimate_create(&state, &estimate);
+    OST_THEN(move_stiffness(analysis, result->t, result));
+    OST_THEN(estimate_reactions(analysis, estimate, result->t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;

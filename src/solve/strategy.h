@@ -30,6 +30,7 @@ struct OstAnalysis {
     OstEstimate *estimate;  /* of the discretisation error; kept where the analysis serves several loads, else NULL */
     OstReactions reactions; /* adjoint problems of watched ones, likewise */
     int serves_several;     /* loads are to follow, so that what they share is kept */
+    int leaves_reactions;   /* watched ones have no error until ost_analysis_find_reactions is called */
     OstAnalysis *company;   /* the one whose solver this shares with others that run beside it; linear theory alone will
                                do. NULL: it is alone */
     const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
@@ -64,6 +65,10 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 /* Collective. Estimates the error that the mesh makes in a result whose displacement at t is there, while the solver of
  * its stiffness lives. OST_EFFECT_ERROR_ESTIMATE. */
 OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *result);
+
+/* Collective. What is to be added to watched reactions, and their errors, of a result of the last solve whose estimate
+ * has left them. OST_EFFECT_ERROR_ESTIMATE. */
+OstStatus ost_analysis_find_reactions(OstAnalysis *analysis, OstResult *result);
 
 /* Collective. Makes room for what the estimate says of tets and, where the case watches something, of nodes. */
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result);

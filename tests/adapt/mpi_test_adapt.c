@@ -3,6 +3,7 @@
 
 #include "adapt/adapt.h"
 #include "adapt/mark.h"
+#include "adapt/stage.h"
 
 /* A beam of three cells, clamped at one end, where edges and corners are singular, and pushed aside at the other. */
 #define BEAM                                                                             \
@@ -56,6 +57,45 @@ static void a_request_is_met_and_not_by_far(void **state)
         assert_int_equal(ost_adaption_scene(adaption)->mesh->global_tets, last_of(adaption)->tets);
         end(&adaption, &c);
     }
+}
+
+/* A reaction takes an adjoint problem: the level that stays the last solves it, and no other. */
+static void only_the_last_level_finds_the_errors_of_reactions(void **state)
+{
+    (void)state;
+    OstCase *c = NULL;
+    OstStage *stage = NULL, *next = NULL;
+    OstMarking marking = {.order = 2, .target = 0.0, .least_tets = 40.0, .most_tets = 80.0};
+    assert_success(read_text("mesh: {block: {size: [3, 1, 1], divisions: [3, 1, 1]}}\nelement: {order: 2}\n"
+                             "materials: [{region: all, youngs_modulus: [1e6, 1e5, 1e5], poissons_ratio: 0.3}]\n"
+                             "constraints:\n  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
+                             "  - {on: {boundary: xmax}, displacement: [0, 0, 0.01]}\n"
+                             "watch: {push: {reaction: {boundary: xmax}, component: z}}\nlarge_rotation: off\n",
+                             &c));
+    assert_success(ost_stage_create(c->ctx, &stage));
+    assert_success(ost_stage_open(stage, c));
+    assert_success(ost_stage_solve(stage));
+    assert_true(stage->result->answer.known);
+    assert_null(stage->result->reactions);
+    assert_success(ost_stage_finish(stage));
+    assert_true(stage->result->reactions[0].known);
+    const double error = stage->result->reactions[0].error;
+    assert_true(error < 0.0); /* a mesh is too stiff */
+    assert_null(stage->analysis);
+    /* where a finer level fails, the last answer is that of a stage whose solver is gone */
+    ost_stage_destroy(&stage);
+    assert_success(ost_stage_create(c->ctx, &stage));
+    assert_success(ost_stage_open(stage, c));
+    assert_success(ost_stage_solve(stage));
+    assert_success(ost_stage_create(c->ctx, &next));
+    assert_success(ost_stage_refine(stage, &marking, next));
+    assert_null(stage->analysis);
+    ost_stage_destroy(&next);
+    assert_success(ost_stage_finish(stage));
+    assert_true(stage->result->reactions[0].known);
+    assert_close(stage->result->reactions[0].error, error, 1e-3 * fabs(error));
+    ost_stage_destroy(&stage);
+    ost_case_destroy(&c);
 }
 
 /* Two cuts of a mesh take the same answer; the second solve starts from the first's. */
@@ -177,6 +217,7 @@ static void marks_make_shares_equal(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_request_is_met_and_not_by_far),
+    cmocka_unit_test(only_the_last_level_finds_the_errors_of_reactions),
     cmocka_unit_test(levels_start_from_the_last_answer),
     cmocka_unit_test(the_order_of_the_case_is_kept),
     cmocka_unit_test(limits_leave_the_best_answer_and_the_price_of_the_rest),

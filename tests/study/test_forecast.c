@@ -2,6 +2,7 @@
 #include "../case/case_text.h"
 
 #include "orthostat/scene.h"
+#include "problem/result_data.h"
 #include "study/forecast/forecast.h"
 
 #include <sys/stat.h>
@@ -115,6 +116,49 @@ static void what_is_hard_takes_more(void **state)
     assert_true(stopped.iterations < 0.5 * usual.iterations);
     assert_close(without.work[OST_STAGE_ESTIMATE], 0.0, 0.0);
     assert_close(without.iterations, usual.iterations, 1e-9); /* nothing tells when to stop */
+}
+
+/* Cells 0.25 to 6 times as long as the wall is thick, in one and two layers. */
+static void thin_walls_take_more_iterations(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *mesh;
+        int order;
+    } walls[] = {
+        {"block: {size: [8, 8, 0.08], divisions: [32, 32, 1]}", 1},
+        {"block: {size: [8, 8, 1], divisions: [32, 32, 1]}", 1},
+        {"tube: {axis: y, length: 4, radii: [0.9, 1], divisions: {around: 24, radial: 1, axial: 16}}", 2},
+        {"block: {size: [5, 5, 0.1], divisions: [20, 20, 1]}", 2},
+        {"block: {size: [5, 5, 0.1], divisions: [20, 20, 2]}", 2},
+        {"block: {size: [5, 5, 1], divisions: [20, 20, 1]}", 2},
+    };
+    for (size_t w = 0; w < sizeof walls / sizeof *walls; w++) {
+        OstScene *scene = NULL;
+        OstResult *result = NULL;
+        make_plan(walls[w].mesh, walls[w].order, USUAL, "");
+        assert_success(ost_scene_create(c, &scene));
+        assert_success(ost_scene_solve(scene, &result));
+        const double ratio = ost_forecast_iterations(&plan) / result->solve.iterations;
+        ost_result_destroy(&result);
+        ost_scene_destroy(&scene);
+        ost_case_destroy(&c);
+        print_message("%s, order %d: %.2f\n", walls[w].mesh, walls[w].order, ratio);
+        assert_true(ratio > 0.5 && ratio < 2.0);
+    }
+}
+
+/* Cells of a quarter of a tube, 0.1 thick: arcs of pi / 2 × 1.05 / 11, refined once. */
+static void cells_of_shapes_have_a_slenderness(void **state)
+{
+    (void)state;
+    make_plan(
+        "sector: {axis: z, length: 3, radii: [1, 1.1], angle: 90, divisions: {around: 11, radial: 1, axial: 20}}\n"
+        "  refine: 1",
+        2, USUAL, "");
+    assert_close(plan.slenderness, sqrt(acos(0.0) * 1.05 / 22.0 * 3.0 / 40.0) / 0.1, 1e-12);
+    assert_close(plan.cells_across, 2.0, 0.0);
+    ost_case_destroy(&c);
 }
 
 static void few_unknowns_are_factored(void **state)
@@ -244,6 +288,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(memory_is_foretold),
     cmocka_unit_test(a_solid_body_costs_more_an_unknown),
     cmocka_unit_test(what_is_hard_takes_more),
+    cmocka_unit_test(thin_walls_take_more_iterations),
+    cmocka_unit_test(cells_of_shapes_have_a_slenderness),
     cmocka_unit_test(few_unknowns_are_factored),
     cmocka_unit_test(ranks_share_the_work),
     cmocka_unit_test(rates_lie_between_those_measured),

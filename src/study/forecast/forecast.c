@@ -11,6 +11,17 @@ static const struct {
     double usual, thinner, incompressible, uneven;
 } iterations_of[2] = {{13.5, 2.0, 0.27, 0.08}, {9.0, 5.0, 0.4, 0.13}};
 static const double usual_poisson = 0.3;
+
+/* Thin walls bend, and the longer their cells are over the wall's thickness, the softer the bending modes are beside
+ * the others; more cells through it make less of that. Iterations grow by 1 + this × (slenderness / cells
+ * across)^power, by order: to a residual, and where the mesh's error ends them. Fitted to plates and tubes whose cells
+ * are 0.2 to 7 times as long as the wall is thick (docs/performance.md). */
+static const double slender[2] = {0.22, 0.35}, stopped_slender[2] = {0.27, 0.65}, slender_power = 1.5;
+
+/* Where cells are longer than this many thicknesses, multigrid takes aggregates of quadratic tets' nodes
+ * (algebra/multigrid/metric.c): so many times the setup, the bytes of an iteration, and iterations. */
+static const double longest = 5.0, aggregated_setup = 7.5, aggregated_iteration = 3.7, aggregated_bending = 1.35;
+
 static const double plain_factor = 4.0; /* of ML's own aggregates */
 static const double usual_digits = 8.0;
 
@@ -47,6 +58,17 @@ static double hardness(const OstSolverFacts *facts, double incompressible, doubl
     return pow(fmax(volume, 1.0), incompressible) * pow(fmax(facts->anisotropy, 1.0), uneven);
 }
 
+static int is_aggregated(const OstPlan *plan)
+{
+    return is_multigrid(plan) && plan->quadratic && plan->slenderness >= longest;
+}
+
+static double bending(const OstPlan *plan, const double by_order[2])
+{
+    const double slenderness = plan->bends ? plan->slenderness / fmax(plan->cells_across, 1.0) : 0.0;
+    return is_aggregated(plan) ? aggregated_bending : 1.0 + by_order[plan->quadratic] * pow(slenderness, slender_power);
+}
+
 double ost_forecast_iterations(const OstPlan *plan)
 {
     const OstSolverFacts *facts = &plan->facts;
@@ -55,8 +77,9 @@ double ost_forecast_iterations(const OstPlan *plan)
     if (plan->solver.first == OST_METHOD_DIRECT)
         return 1.0;
     if (stops_early(plan))
-        return stopped_usual * hardness(facts, stopped_incompressible, stopped_uneven);
+        return stopped_usual * bending(plan, stopped_slender) * hardness(facts, stopped_incompressible, stopped_uneven);
     const double iterations = (iterations_of[q].usual + iterations_of[q].thinner * fmin(thin, 2.0)) *
+                              bending(plan, slender) *
                               hardness(facts, iterations_of[q].incompressible, iterations_of[q].uneven) *
                               -log10(plan->solver.options.relative_residual) / usual_digits;
     return plan->solver.first == OST_METHOD_PLAIN ? plain_factor * iterations : iterations;
@@ -65,7 +88,7 @@ double ost_forecast_iterations(const OstPlan *plan)
 /* What is read of matrix and hierarchy in an iteration. */
 static double iteration_bytes(const OstPlan *plan)
 {
-    return is_multigrid(plan) ? plan->bytes_matrix + plan->levels.kept : plan->bytes_matrix + plan->bytes_solver;
+    return plan->bytes_matrix + (is_multigrid(plan) ? plan->levels.kept : plan->bytes_solver);
 }
 
 void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations, double work[OST_STAGES])
@@ -78,9 +101,11 @@ void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations,
     work[OST_STAGE_SETUP] = product_operations * counts->vertices * levels->columns * levels->columns +
                             factor_operations * levels->coarsest * levels->coarsest * levels->coarsest +
                             (plan->quadratic ? quadratic_operations * counts->nodes : 0.0);
+    if (is_aggregated(plan))
+        work[OST_STAGE_SETUP] *= aggregated_setup;
     if (!is_multigrid(plan))
         work[OST_STAGE_SETUP] = plan->bytes_solver;
-    work[OST_STAGE_SOLVE] = iterations * iteration_bytes(plan);
+    work[OST_STAGE_SOLVE] = iterations * iteration_bytes(plan) * (is_aggregated(plan) ? aggregated_iteration : 1.0);
     const double dearer = ost_effect_on(&plan->effects, OST_EFFECT_VARYING_AXES) ? varying_axes : 1.0;
     work[OST_STAGE_ESTIMATE] = estimate->on ? dearer * (iteration_bytes(plan) + estimate->bytes) : 0.0;
     work[OST_STAGE_REST] = plan->bytes_matrix + dearer * ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
