@@ -6,6 +6,7 @@
 #include "core/small.h"
 #include "guard/guard.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Reactions may balance each other or be none: their error is over no less than this share of the loads. */
@@ -116,13 +117,38 @@ static OstStatus free_displacement(const OstMesh *mesh, double squares, double *
     return OST_SUCCESS;
 }
 
+/* Incompressible parts may bear all loads by their pressure and not move: the displacement's error is over no less than
+ * this share of that of the same energy. Squared, with 2-norms as if the internal forces did that work. */
+static OstStatus of_pressure(const OstProblem *problem, size_t n, const double *internal, double *square)
+{
+    static const double least_of_pressure = 1e-6;
+    const OstMesh *mesh = problem->mesh;
+    double sums[2] = {0.0};
+    *square = 0.0;
+    if (!problem->pressures || !problem->field->pressure)
+        return OST_SUCCESS;
+    for (size_t i = 0; i < 4 * (size_t)mesh->owned_tets; i++) {
+        const OstLocal tet = (OstLocal)(i / 4);
+        const double p = problem->pressures->of_tet[i] >= 0 ? problem->field->pressure[i] : 0.0;
+        if (p != 0.0)
+            sums[0] += 0.25 * fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet))) * p * p *
+                       ost_field_giving_way(problem->field, mesh->tet_region[tet]);
+    }
+    for (size_t i = 0; i < n; i++)
+        sums[1] += internal[i] * internal[i];
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
+    const double size = least_of_pressure * sums[0];
+    *square = sums[1] > 0.0 ? size * size / sums[1] : 0.0;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
                            const double *error, OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
     double *internal = NULL, *wrong = NULL, *load = NULL, *straining = NULL;
-    double sums[SUMS] = {0.0}, swollen = 0.0;
+    double sums[SUMS] = {0.0}, swollen = 0.0, pressed = 0.0;
     OstStatus status = OST_NEW(ctx, &internal, n);
     OST_THEN(OST_NEW(ctx, &wrong, n));
     OST_THEN(OST_NEW(ctx, &load, n));
@@ -148,7 +174,8 @@ OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
     OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
     const double least = least_of_eigenstrain * least_of_eigenstrain;
-    const double moved = fmax(sums[DISPLACEMENT], least * swollen);
+    OST_TRY_DONE(of_pressure(problem, n, internal, &pressed));
+    const double moved = fmax(fmax(sums[DISPLACEMENT], least * swollen), pressed);
     const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
     const double stress = fmax(sums[STRESS], least * sums[EIGENSTRESS]);
     *errors = (OstErrors){.known = 1,

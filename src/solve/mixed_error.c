@@ -134,9 +134,7 @@ static OstStatus measure_all(Search *search, OstErrors *errors)
     const OstSolveReport *report = search->solved->report;
     double caution = forces_caution;
     OST_TRY(measure(search, 1.0, errors));
-    if (!(largest(errors) > small_error)) {
-        errors->displacement = fmax(errors->displacement, report->error_estimate);
-    } else {
+    if (largest(errors) > small_error) {
         OST_TRY(measure(search, part, errors));
         if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
             (report->rounding_limited || report->relative_residual <= large_residual))
