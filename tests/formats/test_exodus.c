@@ -125,6 +125,40 @@ static void fields_are_read_tet_by_tet(void **state)
     }
 }
 
+/* Hexahedra, wedges and pyramids are split; their sides bound, and their tets have their values. */
+static void other_solids_are_read(void **state)
+{
+    static const struct {
+        const char *name;
+        int nodes;
+    } solids[] = {{"solids-linear.exo", 17}, {"solids-serendipity.exo", 71}};
+    (void)state;
+    for (int f = 0; f < 2; f++) {
+        char path[512];
+        OstMesh *mesh = NULL;
+        double faces = 0.0;
+        path_of(solids[f].name, path);
+        OstMeshChunk *chunk = read_cubes(path, 0, solids[f].nodes, 24);
+        check_cubes(chunk, NULL, NULL);
+        check_mid_nodes(chunk);
+        check_boundary(chunk, "clamp", 2, 2, 0.0);
+        check_boundary(chunk, "end", 2, 2, 2.0);
+        assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));
+        for (OstLocal t = 0; t < chunk->tet_count; t++) {
+            const double x = centre_x(chunk, t), modulus = chunk->tet_field[t];
+            /* of the hexahedron 1500; of the pyramids around (1.25, 0.5, 0.5), and their tets, 2062.5 to 2437.5; wedges
+             */
+            assert_true(x < 1.0   ? fabs(modulus - 1500.0) < 1e-9
+                        : x < 1.5 ? modulus > 2000.0 && modulus < 2500.0
+                                  : fabs(modulus - 2750.0) < 100.0);
+        }
+        assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
+        assert_success(ost_mesh_surface_faces(mesh, &faces));
+        assert_close(faces, 28.0, 0.0);
+        ost_mesh_destroy(&mesh);
+    }
+}
+
 /* --- what is refused --- */
 
 enum { MOST_BYTES = 1 << 16 };
@@ -197,7 +231,7 @@ static void mistakes_are_named(void **state)
     } wrong[] = {
         {"num_dim", 4, "\2", 1, "num_dim is 2"},
         {"num_dim", -1, "x", 1, "without num_dim"},
-        {"TETRA", -5, "WEDGE", 5, "24 solid elements that are no tets of 4 or of 10 nodes, the first of them WEDGE"},
+        {"TETRA", -5, "NFACE", 5, "of them NFACE"},
         {"coordz", -1, "q", 1, "coordz (or coord) has 0 numbers, expected 23"},
         {"elem_ss1", -1, "7", 1, "elem_ss1 has 0 numbers and side_ss1 4"},
         {"num_nodes", 6, "\30", 1, "expected in Exodus II, could not be read"},
@@ -236,7 +270,7 @@ static void numbers_of_nodes_are_checked(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(files_hold_two_cubes), cmocka_unit_test(fields_are_read_tet_by_tet),
-    cmocka_unit_test(a_file_that_was_cut_off_is_refused), cmocka_unit_test(mistakes_are_named),
-    cmocka_unit_test(numbers_of_nodes_are_checked)};
+    cmocka_unit_test(files_hold_two_cubes),       cmocka_unit_test(other_solids_are_read),
+    cmocka_unit_test(fields_are_read_tet_by_tet), cmocka_unit_test(a_file_that_was_cut_off_is_refused),
+    cmocka_unit_test(mistakes_are_named),         cmocka_unit_test(numbers_of_nodes_are_checked)};
 OST_TEST_MAIN(tests)

@@ -290,6 +290,53 @@ EDGES = {"quad": "01 12 23 30", "tetra": "01 12 02 03 13 23", "pyramid": "01 12 
          "wedge": "01 12 20 34 45 53 03 14 25", "hexahedron": "01 12 23 30 45 56 67 74 04 15 26 37"}  # of VTK
 
 
+def exodus_of_solids():
+    """Blocks by shape, sides by the figures of the Exodus manual, which has upright edges before those of the top."""
+    sides = {"hexahedron": "0154 1265 2376 0473 0321 4567", "wedge": "0143 1254 0352 021 345", "pyramid": "014 124 234 043 0321"}
+    order = {"hexahedron": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15], "wedge": [*range(9), 12, 13, 14, 9, 10, 11]}
+    points, found = cells(True)
+    for name, quadratic in (("linear", False), ("serendipity", True)):
+        places, middles, blocks = [list(point) for point in points], {}, {}
+        for shape, _, nodes in found:
+            nodes = list(map(int, nodes))
+            for a, b in EDGES[shape].split() if quadratic else ():
+                ends = frozenset((nodes[int(a)], nodes[int(b)]))
+                if ends not in middles:
+                    middles[ends] = len(places)
+                    places.append(points[list(ends)].mean(axis=0))
+                nodes.append(middles[ends])
+            if shape != "quad":
+                blocks.setdefault(shape, []).append([nodes[n] for n in order.get(shape, [])[:len(nodes)]] if quadratic and shape in order else nodes)
+        places, elements = np.array(places), [(shape, nodes) for shape, block in blocks.items() for nodes in block]
+        with netCDF4.Dataset(os.path.join(HERE, f"solids-{name}.exo"), "w", format="NETCDF3_CLASSIC") as out:
+            out.setncatts({"api_version": np.float32(8.03), "version": np.float32(8.03), "floating_point_word_size": np.int32(8),
+                           "file_size": np.int32(1), "title": "two cubes"})
+            for word, size in (("num_dim", 3), ("num_nodes", len(places)), ("num_elem", len(elements)), ("num_el_blk", len(blocks)),
+                               ("num_side_sets", 2), ("num_elem_var", 1), ("len_name", 33), ("time_step", None)):
+                out.createDimension(word, size)
+            for axis, word in enumerate(("coordx", "coordy", "coordz")):
+                out.createVariable(word, "f8", ("num_nodes",))[:] = places[:, axis]
+            out.createVariable("name_elem_var", "S1", ("num_elem_var", "len_name"))[:] = netCDF4.stringtochar(np.array(["modulus"], "S33"))
+            out.createVariable("ss_names", "S1", ("num_side_sets", "len_name"))[:] = netCDF4.stringtochar(np.array(["clamp", "end"], "S33"))
+            out.createVariable("eb_prop1", "i4", ("num_el_blk",))[:] = range(1, len(blocks) + 1)
+            out["eb_prop1"].setncattr("name", "ID")
+            for b, (shape, block) in enumerate(blocks.items(), 1):
+                out.createDimension(f"num_el_in_blk{b}", len(block))
+                out.createDimension(f"num_nod_per_el{b}", len(block[0]))
+                connect = out.createVariable(f"connect{b}", "i4", (f"num_el_in_blk{b}", f"num_nod_per_el{b}"))
+                connect.elem_type = {"hexahedron": "HEX", "tetra": "TETRA"}.get(shape, shape.upper()) + str(len(block[0]))
+                connect[:] = np.array(block) + 1
+                corners = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4}[shape]
+                values = out.createVariable(f"vals_elem_var1eb{b}", "f8", ("time_step", f"num_el_in_blk{b}"))
+                values[0] = [1000.0 + 1000.0 * places[nodes[:corners], 0].mean() for nodes in block]
+            for s, x in ((1, 0.0), (2, 2.0)):
+                at = [(e, n) for e, (shape, nodes) in enumerate(elements, 1) for n, side in enumerate(sides.get(shape, "").split(), 1)
+                      if all(places[nodes[int(v)], 0] == x for v in side)]
+                out.createDimension(f"num_side_ss{s}", len(at))
+                for word, column in ((f"elem_ss{s}", 0), (f"side_ss{s}", 1)):
+                    out.createVariable(word, "i4", (f"num_side_ss{s}",))[:] = [pair[column] for pair in at]
+
+
 def solids_by_vtk():
     from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
@@ -328,4 +375,5 @@ if __name__ == "__main__":
     for order in SOURCES:
         as_from_cae(order)
     other_solids()
+    exodus_of_solids()
     solids_by_vtk()
