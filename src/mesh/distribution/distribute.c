@@ -106,6 +106,7 @@ done:
     return status;
 }
 
+/* A rank that read the whole mesh partitions it as a whole. */
 static OstStatus find_parts(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part)
 {
     NodeMetric *metric = NULL;
