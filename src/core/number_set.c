@@ -24,7 +24,7 @@ OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers)
     return kept;
 }
 
-OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal number)
+OstLocal ost_numbers_below(OstLocal count, const OstGlobal *sorted, OstGlobal number)
 {
     OstLocal low = 0;
     OstLocal high = count;
@@ -35,7 +35,13 @@ OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal num
         else
             high = middle;
     }
-    return low < count && sorted[low] == number ? low : -1;
+    return low;
+}
+
+OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal number)
+{
+    const OstLocal place = ost_numbers_below(count, sorted, number);
+    return place < count && sorted[place] == number ? place : -1;
 }
 
 /* Most numbers are added many times. Removing repetitions before the array grows keeps it near the size of the set. */

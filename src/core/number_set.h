@@ -9,6 +9,9 @@
 /* Sorts numbers, ascending, and keeps each once; returns how many are left. */
 OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers);
 
+/* How many numbers of a sorted set are below one. */
+OstLocal ost_numbers_below(OstLocal count, const OstGlobal *sorted, OstGlobal number);
+
 /* The place of a number in a sorted set, or -1. */
 OstLocal ost_numbers_find(OstLocal count, const OstGlobal *sorted, OstGlobal number);
 

@@ -62,6 +62,9 @@ static void sorted_numbers_come_once_and_are_found(void **state)
     assert_int_equal(ost_numbers_find(4, number, 7), 2);
     assert_int_equal(ost_numbers_find(4, number, (OstGlobal)1 << 40), 3);
     assert_int_equal(ost_numbers_find(4, number, 4), -1);
+    assert_int_equal(ost_numbers_below(4, number, 4), 2);
+    assert_int_equal(ost_numbers_below(4, number, 7), 2);
+    assert_int_equal(ost_numbers_below(4, number, INT64_MAX), 4);
     assert_int_equal(ost_numbers_sort(0, number), 0);
     assert_int_equal(ost_numbers_find(0, NULL, 4), -1);
 }

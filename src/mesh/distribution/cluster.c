@@ -131,20 +131,20 @@ static OstStatus sort_by_cluster(const Slab *slab, const Clusters *clusters, Ost
     return OST_SUCCESS;
 }
 
-/* Adds the edges of one node to its cluster's row, which starts at `begin`. position[d] is where the row has cluster d;
- * a position before `begin` is from an earlier row. */
-static void add_edges(const Graph *nodes, const idx_t *of_node, OstLocal node, idx_t begin, idx_t *position,
-                      Graph *graph, idx_t *end)
+/* Adds the edges of one node to its cluster's row, from `begin` to `end`. A cluster has few neighbours: they are looked
+ * for one by one. */
+static void add_edges(const Graph *nodes, const idx_t *of_node, OstLocal node, idx_t begin, Graph *graph, idx_t *end)
 {
     for (idx_t p = nodes->start[node]; p < nodes->start[node + 1]; p++) {
         const idx_t other = of_node[nodes->neighbour[p]];
         if (other == of_node[node])
             continue;
-        if (position[other] < begin) {
-            position[other] = *end;
+        idx_t place = begin;
+        while (place < *end && graph->neighbour[place] != other)
+            place++;
+        if (place == *end)
             graph->neighbour[(*end)++] = other;
-        }
-        graph->edge_weight[position[other]] += nodes->edge_weight ? nodes->edge_weight[p] : 1;
+        graph->edge_weight[place] += nodes->edge_weight ? nodes->edge_weight[p] : 1;
     }
 }
 
@@ -153,27 +153,22 @@ OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters
     OstContext *ctx = slab->ctx;
     OstLocal *start = NULL;
     OstLocal *node = NULL;
-    idx_t *position = NULL;
     idx_t end = 0;
     OstStatus status = OST_SUCCESS;
     graph->rows = clusters->count;
     OST_TRY_DONE(sort_by_cluster(slab, clusters, &start, &node));
-    OST_TRY_DONE(OST_NEW(ctx, &position, clusters->total));
     OST_TRY_DONE(OST_NEW(ctx, &graph->start, (size_t)graph->rows + 1));
     OST_TRY_DONE(OST_NEW(ctx, &graph->neighbour, nodes->start[nodes->rows]));
     OST_TRY_DONE(OST_NEW(ctx, &graph->edge_weight, nodes->start[nodes->rows]));
     OST_TRY_DONE(OST_NEW(ctx, &graph->row_weight, graph->rows));
-    for (OstGlobal c = 0; c < clusters->total; c++)
-        position[c] = -1;
     for (OstLocal c = 0; c < graph->rows; c++) {
         for (OstLocal i = start[c]; i < start[c + 1]; i++)
-            add_edges(nodes, clusters->of_node, node[i], graph->start[c], position, graph, &end);
+            add_edges(nodes, clusters->of_node, node[i], graph->start[c], graph, &end);
         graph->row_weight[c] = start[c + 1] - start[c];
         graph->start[c + 1] = end;
     }
 done:
     OST_FREE(start);
     OST_FREE(node);
-    OST_FREE(position);
     return status;
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "mesh/check/check.h"
+#include "mesh/distribution/curve.h"
 #include "mesh/distribution/partition.h"
 #include "mesh/distribution/weld.h"
 
@@ -72,19 +74,64 @@ static OstStatus weld(const OstMeshChunk *chunk, const Slab *slab, const OstTetM
     return status;
 }
 
+/* Slabs by node number may lie all over the body, and so would their clusters, along which ost_partition cuts. */
+static OstStatus partition_along_curve(const OstMeshChunk *chunk, const Slab *slab, const NodeMetric *metric, int *part)
+{
+    OstContext *ctx = slab->ctx;
+    Slab *moved = NULL;
+    NodeMetric *moved_metric = NULL;
+    OstRoute *route = NULL;
+    int *to = NULL, *moved_part = NULL;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &to, (size_t)slab->node_count + (size_t)slab->ghost_count)));
+    OST_TRY_DONE(ost_curve_slabs(ctx, slab->node_count, chunk->coordinates, to));
+    OST_TRY_DONE(ost_halo_import(slab->halo, sizeof *to, to));
+    OST_TRY_DONE(ost_route_create(ctx, slab->node_count, 1, to, &route));
+    OST_TRY_DONE(ost_slab_move(slab, route, to, &moved));
+    const size_t nodes = (size_t)moved->node_count + (size_t)moved->ghost_count;
+    if (metric) {
+        OST_TRY_DONE(ost_route_carry(route, sizeof *metric, metric, (void **)&moved_metric));
+        OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &moved_metric, nodes)));
+        OST_TRY_DONE(ost_halo_import(moved->halo, sizeof *metric, moved_metric));
+    }
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &moved_part, nodes)));
+    OST_TRY_DONE(ost_partition(moved, moved_metric, moved_part));
+    OST_TRY_DONE(ost_route_answer(route, sizeof *part, moved_part, part));
+    OST_TRY_DONE(ost_halo_import(slab->halo, sizeof *part, part));
+done:
+    OST_FREE(to);
+    OST_FREE(moved_metric);
+    OST_FREE(moved_part);
+    ost_route_destroy(&route);
+    ost_slab_destroy(&moved);
+    return status;
+}
+
+/* A rank that read the whole mesh partitions it as a whole. */
+static OstStatus find_parts(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part)
+{
+    NodeMetric *metric = NULL;
+    OstGlobal most = slab->node_count;
+    OstStatus status = OST_SUCCESS;
+    OST_TRY_DONE(ost_max_numbers(slab->ctx, 1, &most));
+    if (tets && tets->fill)
+        OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
+    OST_TRY_DONE(most == slab->global_nodes ? ost_partition(slab, metric, part)
+                                            : partition_along_curve(chunk, slab, metric, part));
+done:
+    OST_FREE(metric);
+    return status;
+}
+
 static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh *mesh)
 {
     OstContext *ctx = chunk->ctx;
     Slab *slab = NULL;
-    NodeMetric *metric = NULL;
     int *part = NULL, has_close = 0, has_stiff = 0;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_slab_create(chunk, &slab));
-    if (tets && tets->fill)
-        OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &part, (size_t)slab->node_count + (size_t)slab->ghost_count)));
-    OST_TRY_DONE(ost_partition(slab, metric, part));
-    OST_FREE(metric);
+    OST_TRY_DONE(find_parts(chunk, slab, tets, part));
     OST_TRY_DONE(ost_parts_weld_close(chunk, slab, part, &has_close));
     if (tets && tets->stiffness)
         OST_TRY_DONE(weld(chunk, slab, tets, part, &has_stiff));
@@ -92,7 +139,6 @@ static OstStatus partition_and_move(OstMeshChunk *chunk, const OstTetMetric *tet
     take_names(chunk, mesh);
     OST_TRY_DONE(ost_mesh_redistribute(chunk, slab, part, mesh));
 done:
-    OST_FREE(metric);
     OST_FREE(part);
     ost_slab_destroy(&slab);
     return status;

@@ -24,8 +24,9 @@ OstStatus ost_graph_weigh_edges(const Slab *slab, const NodeMetric *nodes, Graph
 
 /* Collective. The part of each of the slab's nodes and ghosts (part: node_count + ghost_count numbers): one part per
  * rank, none empty. If one rank has all nodes, METIS partitions their graph there. Otherwise METIS divides each rank's
- * nodes into small clusters, and rank 0 partitions the graph of clusters, so that no rank needs the whole mesh.
- * `metric` (of the nodes and ghosts; NULL: none) weights the edges, so that stiff couplings are not cut. */
+ * nodes into small clusters, and rank 0 partitions the graph of clusters, so that no rank needs the whole mesh; each
+ * rank's nodes should then lie close together. The slab must have all tets that touch its nodes. `metric` (of the nodes
+ * and ghosts; NULL: none) weights the edges, so that stiff couplings are not cut. */
 OstStatus ost_partition(const Slab *slab, const NodeMetric *metric, int *part);
 
 /* Collective. Moves the chunk's nodes and tets to the ranks of their parts (`part`: of the slab's nodes and ghosts) and

@@ -5,7 +5,6 @@
 #include "core/memory.h"
 #include "core/number_set.h"
 #include "core/parallel/numbering.h"
-#include "core/parallel/route.h"
 
 void ost_slab_destroy(Slab **slab)
 {
@@ -29,32 +28,6 @@ OstLocal ost_slab_local(const Slab *slab, OstGlobal node)
     return slab->node_count + ost_numbers_find(slab->ghost_count, slab->ghost_number, node);
 }
 
-/* Sends each tet to the other ranks that have nodes of it; receives the global node numbers of this rank's ghost tets.
- */
-static OstStatus exchange_ghost_tets(const OstMeshChunk *chunk, const Slab *slab, OstLocal *count, OstGlobal **nodes)
-{
-    OstContext *ctx = chunk->ctx;
-    const size_t width = (size_t)chunk->nodes_per_tet;
-    OstGlobal *end = NULL;
-    int *to = NULL;
-    OstRoute *route = NULL;
-    OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &to, (size_t)chunk->tet_count * width);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(ost_number_ends(ctx, chunk->first_node + chunk->node_count, end));
-    for (size_t i = 0; i < (size_t)chunk->tet_count * width; i++)
-        to[i] = is_mine(slab, chunk->tet_nodes[i]) ? -1 : ost_number_holder(end, ost_size(ctx), chunk->tet_nodes[i]);
-    OST_TRY_DONE(ost_route_create(ctx, chunk->tet_count, chunk->nodes_per_tet, to, &route));
-    OST_TRY_DONE(ost_route_carry(route, width * sizeof(OstGlobal), chunk->tet_nodes, (void **)nodes));
-    *count = route->receives;
-done:
-    OST_FREE(end);
-    OST_FREE(to);
-    ost_route_destroy(&route);
-    return status;
-}
-
 static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nodes, OstNumberSet *ghosts)
 {
     for (size_t i = 0; i < count; i++)
@@ -63,15 +36,13 @@ static OstStatus add_ghosts(const Slab *slab, size_t count, const OstGlobal *nod
     return OST_SUCCESS;
 }
 
-static OstStatus find_ghosts(const OstMeshChunk *chunk, Slab *slab, OstLocal ghost_tets,
-                             const OstGlobal *ghost_tet_nodes)
+/* `chunk` is NULL where there are no boundaries. */
+static OstStatus find_ghosts(const OstMeshChunk *chunk, size_t entries, const OstGlobal *tet_nodes, Slab *slab)
 {
-    const size_t width = (size_t)chunk->nodes_per_tet;
     OstNumberSet ghosts = {0};
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(add_ghosts(slab, (size_t)chunk->tet_count * width, chunk->tet_nodes, &ghosts));
-    OST_TRY_DONE(add_ghosts(slab, (size_t)ghost_tets * width, ghost_tet_nodes, &ghosts));
-    for (int b = 0; b < chunk->boundary_count; b++) {
+    OST_TRY_DONE(add_ghosts(slab, entries, tet_nodes, &ghosts));
+    for (int b = 0; chunk && b < chunk->boundary_count; b++) {
         const OstBoundary *boundary = &chunk->boundaries[b];
         OST_TRY_DONE(
             add_ghosts(slab, (size_t)boundary->count * (size_t)boundary->nodes_per_item, boundary->nodes, &ghosts));
@@ -85,48 +56,97 @@ done:
     return status;
 }
 
-static OstStatus number_locally(const OstMeshChunk *chunk, Slab *slab, OstLocal ghost_tets,
-                                const OstGlobal *ghost_tet_nodes)
+static OstStatus number_locally(const OstMeshChunk *chunk, const OstGlobal *tet_nodes, Slab *slab)
 {
-    const size_t width = (size_t)chunk->nodes_per_tet;
-    const size_t own = (size_t)chunk->tet_count * width;
-    if ((OstGlobal)chunk->tet_count + ghost_tets > INT32_MAX ||
-        (OstGlobal)chunk->node_count + slab->ghost_count > INT32_MAX)
+    const size_t entries = (size_t)slab->tet_count * (size_t)slab->nodes_per_tet;
+    OST_TRY(find_ghosts(chunk, entries, tet_nodes, slab));
+    if ((OstGlobal)slab->node_count + slab->ghost_count > INT32_MAX)
         return OST_RAISE(slab->ctx, OST_LIMIT_EXCEEDED,
-                         "a rank would hold more than %d tets or nodes before partition; use more ranks", INT32_MAX);
-    slab->tet_count = chunk->tet_count + ghost_tets;
-    OST_TRY(OST_NEW(slab->ctx, &slab->tet_nodes, (size_t)slab->tet_count * width));
-    for (size_t i = 0; i < own; i++)
-        slab->tet_nodes[i] = ost_slab_local(slab, chunk->tet_nodes[i]);
-    for (size_t i = 0; i < (size_t)ghost_tets * width; i++)
-        slab->tet_nodes[own + i] = ost_slab_local(slab, ghost_tet_nodes[i]);
+                         "a rank would hold more than %d nodes before partition; use more ranks", INT32_MAX);
+    OST_TRY(OST_NEW(slab->ctx, &slab->tet_nodes, entries));
+    for (size_t i = 0; i < entries; i++)
+        slab->tet_nodes[i] = ost_slab_local(slab, tet_nodes[i]);
     return OST_SUCCESS;
+}
+
+/* Makes the arrays of a slab whose counts are known, from the global numbers of its tets' nodes. */
+static OstStatus complete(const OstMeshChunk *chunk, const OstGlobal *tet_nodes, Slab *slab)
+{
+    OST_TRY(ost_agree(slab->ctx, number_locally(chunk, tet_nodes, slab)));
+    return ost_halo_create(slab->ctx, slab->node_count, slab->first_node, slab->ghost_count, slab->ghost_number,
+                           &slab->halo);
 }
 
 OstStatus ost_slab_create(const OstMeshChunk *chunk, Slab **slab)
 {
     OstContext *ctx = chunk->ctx;
-    OstGlobal *ghost_tet_nodes = NULL;
-    OstLocal ghost_tets = 0;
-    Slab *made = NULL;
-    OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &made, 1)));
-    made->ctx = ctx;
-    made->global_nodes = chunk->global_nodes;
-    made->first_node = chunk->first_node;
-    made->node_count = chunk->node_count;
-    made->nodes_per_tet = chunk->nodes_per_tet;
-    OST_TRY_DONE(exchange_ghost_tets(chunk, made, &ghost_tets, &ghost_tet_nodes));
-    status = find_ghosts(chunk, made, ghost_tets, ghost_tet_nodes);
-    if (status == OST_SUCCESS)
-        status = number_locally(chunk, made, ghost_tets, ghost_tet_nodes);
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(
-        ost_halo_create(ctx, made->node_count, made->first_node, made->ghost_count, made->ghost_number, &made->halo));
-done:
-    OST_FREE(ghost_tet_nodes);
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, slab, 1)));
+    **slab = (Slab){.ctx = ctx,
+                    .global_nodes = chunk->global_nodes,
+                    .first_node = chunk->first_node,
+                    .node_count = chunk->node_count,
+                    .nodes_per_tet = chunk->nodes_per_tet,
+                    .tet_count = chunk->tet_count};
+    const OstStatus status = complete(chunk, chunk->tet_nodes, *slab);
     if (status != OST_SUCCESS)
-        ost_slab_destroy(&made);
-    *slab = made;
+        ost_slab_destroy(slab);
+    return status;
+}
+
+/* Sends each tet to the ranks that get nodes of it, with their new numbers. */
+static OstStatus send_tets(const Slab *slab, const int *to, const OstGlobal *number, Slab *moved, OstGlobal **nodes)
+{
+    OstContext *ctx = slab->ctx;
+    const size_t width = (size_t)slab->nodes_per_tet;
+    const size_t entries = (size_t)slab->tet_count * width;
+    int *rank = NULL;
+    OstGlobal *sent = NULL;
+    OstRoute *route = NULL;
+    OstStatus status = OST_NEW(ctx, &rank, entries);
+    OST_THEN(OST_NEW(ctx, &sent, entries));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    for (size_t i = 0; i < entries; i++) {
+        rank[i] = to[slab->tet_nodes[i]];
+        sent[i] = number[slab->tet_nodes[i]];
+    }
+    OST_TRY_DONE(ost_route_create(ctx, slab->tet_count, slab->nodes_per_tet, rank, &route));
+    OST_TRY_DONE(ost_route_carry(route, width * sizeof *sent, sent, (void **)nodes));
+    moved->tet_count = route->receives;
+done:
+    OST_FREE(rank);
+    OST_FREE(sent);
+    ost_route_destroy(&route);
+    return status;
+}
+
+/* New global numbers of the old slab's nodes and ghosts: in the order in which they arrive. */
+static OstStatus number_anew(const Slab *slab, const OstRoute *route, Slab *moved, OstGlobal *number)
+{
+    OstContext *ctx = slab->ctx;
+    OstGlobal *arrived = NULL;
+    OST_TRY(ost_number_from(ctx, moved->node_count, &moved->first_node, &moved->global_nodes));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &arrived, moved->node_count)));
+    for (OstLocal i = 0; i < moved->node_count; i++)
+        arrived[i] = moved->first_node + i;
+    OstStatus status = ost_route_answer(route, sizeof *number, arrived, number);
+    OST_THEN(ost_halo_import(slab->halo, sizeof *number, number));
+    OST_FREE(arrived);
+    return status;
+}
+
+OstStatus ost_slab_move(const Slab *slab, const OstRoute *route, const int *to, Slab **moved)
+{
+    OstContext *ctx = slab->ctx;
+    OstGlobal *number = NULL, *nodes = NULL;
+    OstStatus status = OST_NEW(ctx, moved, 1);
+    OST_THEN(OST_NEW(ctx, &number, (size_t)slab->node_count + (size_t)slab->ghost_count));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    **moved = (Slab){.ctx = ctx, .node_count = route->receives, .nodes_per_tet = slab->nodes_per_tet};
+    OST_TRY_DONE(number_anew(slab, route, *moved, number));
+    OST_TRY_DONE(send_tets(slab, to, number, *moved, &nodes));
+    OST_TRY_DONE(complete(NULL, nodes, *moved));
+done:
+    OST_FREE(number);
+    OST_FREE(nodes);
     return status;
 }
