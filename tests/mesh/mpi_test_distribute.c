@@ -405,6 +405,24 @@ static void scattered_nodes_are_cut_as_well(void **state)
     ost_mesh_destroy(&mesh);
 }
 
+/* As a program may hand it over in arrays: the nodes are all rank 0's, the tets are not. */
+static void nodes_apart_from_their_tets_are_cut_as_well(void **state)
+{
+    (void)state;
+    OstMeshChunk *chunk = tube_chunk();
+    Whole whole = gather_whole(chunk);
+    const OstLocal nodes = ost_rank(ctx) == 0 ? (OstLocal)whole.nodes : 0;
+    OST_FREE(chunk->coordinates);
+    copy_array(3 * (size_t)nodes, sizeof(double), whole.x, (void **)&chunk->coordinates);
+    chunk->node_count = nodes;
+    chunk->first_node = ost_rank(ctx) == 0 ? 0 : whole.nodes;
+    free_whole(&whole);
+    OstMesh *mesh = distribute_and_check(chunk);
+    assert_balanced(mesh);
+    assert_compact(mesh);
+    ost_mesh_destroy(&mesh);
+}
+
 /* Thirty times as short along x: lengths squared by 1/900. */
 static const double stiff_along_x[6] = {1.0 / 900.0, 1.0, 1.0, 0.0, 0.0, 0.0};
 
@@ -502,6 +520,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(points_stay_with_their_owner),
     cmocka_unit_test(shuffled_tets_are_cut_as_well),
     cmocka_unit_test(scattered_nodes_are_cut_as_well),
+    cmocka_unit_test(nodes_apart_from_their_tets_are_cut_as_well),
     cmocka_unit_test(borders_run_along_what_is_stiff),
     cmocka_unit_test(a_mesh_is_cut_the_same_way_every_time),
     cmocka_unit_test(a_doubled_tet_is_named_by_the_surface),

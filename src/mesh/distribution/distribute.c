@@ -111,13 +111,12 @@ done:
 static OstStatus find_parts(const OstMeshChunk *chunk, const Slab *slab, const OstTetMetric *tets, int *part)
 {
     NodeMetric *metric = NULL;
-    OstGlobal most = slab->node_count;
+    int whole = chunk->node_count == chunk->global_nodes && chunk->tet_count == chunk->global_tets;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(ost_max_numbers(slab->ctx, 1, &most));
+    OST_TRY_DONE(ost_max_ints(slab->ctx, 1, &whole));
     if (tets && tets->fill)
         OST_TRY_DONE(ost_node_metrics_create(chunk, slab, tets, &metric));
-    OST_TRY_DONE(most == slab->global_nodes ? ost_partition(slab, metric, part)
-                                            : partition_along_curve(chunk, slab, metric, part));
+    OST_TRY_DONE(whole ? ost_partition(slab, metric, part) : partition_along_curve(chunk, slab, metric, part));
 done:
     OST_FREE(metric);
     return status;

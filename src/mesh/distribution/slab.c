@@ -87,10 +87,7 @@ OstStatus ost_slab_create(const OstMeshChunk *chunk, Slab **slab)
                     .node_count = chunk->node_count,
                     .nodes_per_tet = chunk->nodes_per_tet,
                     .tet_count = chunk->tet_count};
-    const OstStatus status = complete(chunk, chunk->tet_nodes, *slab);
-    if (status != OST_SUCCESS)
-        ost_slab_destroy(slab);
-    return status;
+    return complete(chunk, chunk->tet_nodes, *slab);
 }
 
 /* Sends each tet to the ranks that get nodes of it, with their new numbers. */
