@@ -14,8 +14,8 @@ def write(name, text):
     return name
 
 
-def bar(name, length, along, across, quadratic):
-    """A bar of square section, of side 1, with surfaces at both its ends by faces of its elements."""
+def bar(name, length, along, across, quadratic, by_nodes=False):
+    """A bar of square section, of side 1, with its ends by faces of its elements, or as sets of nodes."""
     number, lines = {}, ["*ELEMENT, TYPE=" + ("C3D20R" if quadratic else "C3D8I")]
 
     def node(a, b, c):  # in halves of elements
@@ -37,7 +37,9 @@ def bar(name, length, along, across, quadratic):
                     if i == at * (along - 1):
                         ends[face].append(element)
     places = [f"{n}, {a * length / along / 2}, {b / across / 2}, {c / across / 2}" for (a, b, c), n in number.items()]
-    for face, name_of in (("S6", "ROOT"), ("S4", "TIP")):
+    for end, name_of in ((0, "ROOT"), (2 * along, "TIP")) if by_nodes else ():
+        lines += [f"*NSET, NSET={name_of}"] + [str(n) for (a, _, _), n in number.items() if a == end]
+    for face, name_of in () if by_nodes else (("S6", "ROOT"), ("S4", "TIP")):
         lines += [f"*SURFACE, NAME={name_of}"] + [f"{e}, {face}" for e in ends[face]]
     write(name, "\n".join(["*NODE", *places, *lines, ""]))
 
@@ -70,6 +72,13 @@ bar("quadratic.inp", 10, 10, 2, True)
 for mesh, ranks in fewer((("linear.inp", 1), ("linear.inp", 2), ("quadratic.inp", 1))):
     found = tip(mesh, "[2, 0, 0]", ranks=ranks)
     check(abs(found - 0.02) < 1e-8, f"{mesh} on {ranks} ranks is stretched by {found}, expected 0.02")
+
+# Sets of nodes that are whole ends stay whole where quadratic tets, refinement or the split of C3D20 add nodes.
+bar("nodes.inp", 2, 2, 2, False, by_nodes=True)
+bar("nodes-quadratic.inp", 2, 2, 2, True, by_nodes=True)
+for mesh, element in (("nodes.inp", "element: {order: 2}"), ("nodes.inp, refine: 1", "element: {order: 2}"), ("nodes-quadratic.inp", "")):
+    found = tip(mesh, "[5, 0, 0]", element=element, length=2)
+    check(abs(found - 0.01) < 1e-8, f"{mesh} {element}: stretched by {found}, expected 0.01")
 
 # Bent: FL³/3EI + 6FL/5GA (Timoshenko). Linear tets are too stiff, and quadratic ones made of them are not.
 bent = 0.01 * (10**3 / (3 * 1000 / 12) + 1.2 * 10 / 500)

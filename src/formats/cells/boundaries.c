@@ -169,8 +169,7 @@ static OstStatus add_nodes(OstCells *cells, const OstCellSet *set)
     return OST_SUCCESS;
 }
 
-/* Vertices, then mid-edge nodes 01 12 20. */
-static void face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, OstGlobal face[6])
+void ost_cell_face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, OstGlobal face[6])
 {
     const int *v = ost_tet_face[opposite];
     for (int i = 0; i < 3; i++)
@@ -194,7 +193,22 @@ static OstStatus add_faces(OstCells *cells, const OstCellSet *set, OstCellKind t
             cells->missing++;
             continue;
         }
-        face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, opposite[side], face);
+        ost_cell_face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, opposite[side], face);
+        append(boundary, face);
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus add_sides(OstCells *cells, const OstCellSet *set, OstCellKind tets)
+{
+    const int width = ost_cell_facts[tets].nodes;
+    OstBoundary *boundary = NULL;
+    OST_TRY(boundary_of(cells, set->name, 2, width == 4 ? 3 : 6, &boundary));
+    OST_TRY(reserve(cells, boundary, set->count));
+    for (OstLocal i = 0; i < set->count; i++) {
+        OstGlobal face[6];
+        ost_cell_face_of(cells->list[tets].nodes + (size_t)(set->item[i] / 4) * (size_t)width, width,
+                         (int)(set->item[i] % 4), face);
         append(boundary, face);
     }
     return OST_SUCCESS;
@@ -207,6 +221,8 @@ static OstStatus add_set(OstCells *cells, const OstCellSet *set, OstCellKind tet
         return dimension == 0 && set->count > 0 ? add_nodes(cells, set) : OST_SUCCESS;
     if (set->kind == OST_SET_OF_FACES)
         return dimension == 2 && set->count > 0 ? add_faces(cells, set, tets) : OST_SUCCESS;
+    if (set->kind == OST_SET_OF_SIDES)
+        return dimension == 2 ? add_sides(cells, set, tets) : OST_SUCCESS;
     if (dimension == 0)
         return add_cells(cells, set, OST_CELL_POINT);
     if (dimension == 1)
@@ -238,6 +254,7 @@ OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets)
     const OstCellKind kind[3] = {OST_CELL_POINT, quadratic ? OST_CELL_LINE3 : OST_CELL_LINE2,
                                  quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3};
     OST_TRY(check_order(cells, tets));
+    OST_TRY(ost_cells_cover_faces(cells, tets));
     OST_TRY(OST_NEW(cells->ctx, &cells->chunk->boundaries, 0));
     for (int dimension = 2; dimension >= 0; dimension--) {
         OST_TRY(add_groups(cells, kind[dimension]));

@@ -54,14 +54,15 @@ typedef struct OstCellName {
     char *name;
 } OstCellName;
 
-/* A named list of nodes, of cells, or of faces of solids. */
-typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES } OstSetKind;
+/* A named list of nodes, of cells, or of faces of solids; of sides of tets: what ost_cells_cover_faces makes. */
+typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES, OST_SET_OF_SIDES } OstSetKind;
 typedef struct OstCellSet {
     OstSetKind kind;
     char *name;
     int is_region; /* of cells: may be a region if it holds tets; else it only bounds */
     OstLocal count, room;
-    OstGlobal *item; /* labels; of faces: as ost_cell_face makes them */
+    OstGlobal *item; /* labels; of faces: as ost_cell_face makes them; of sides: 4 × the tet's position + the vertex
+                        opposite */
 } OstCellSet;
 
 /* A face of a solid, by the solid's label and the face's number from 0, in the order of Abaqus's S1, S2, ...
@@ -128,6 +129,13 @@ int ost_cells_must_split(const OstCells *cells);
 OstStatus ost_cells_split(OstCells *cells);
 OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets);
 OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets);
+
+/* Local. Sets of nodes that hold whole faces of the surface, and nothing beside them, become sets of these faces,
+ * unless another set or group has the name. */
+OstStatus ost_cells_cover_faces(OstCells *cells, OstCellKind tets);
+
+/* The face of a tet opposite a vertex: its vertices, then (of quadratic tets) mid-edge nodes 01 12 20. */
+void ost_cell_face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, OstGlobal face[6]);
 
 /* Local. Where a cell is, by its label: its kind and position, or a kind of OST_CELL_KINDS. */
 OstCellKind ost_cells_find(const OstCells *cells, OstGlobal label, OstLocal *position);

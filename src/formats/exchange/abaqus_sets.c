@@ -83,8 +83,10 @@ OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
 /* Shells have a side of their own name: they are put into a set of cells that bounds. */
 static OstStatus put_shells(OstInp *inp, const char *word)
 {
-    const int set = inp->set;
+    const int set = inp->set, known = ost_cells_find_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name) >= 0;
     OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name, &inp->set));
+    if (!known)
+        inp->cells.set[inp->set].is_region = 0;
     const OstStatus status = put_word(inp, word);
     inp->set = set;
     return status;

@@ -298,10 +298,10 @@ static OstStatus read_attribute(Legacy *legacy, int components)
     return read_array(legacy, name, type, components, legacy->tuples);
 }
 
-/* Is the line that follows METADATA? Skips it, to the blank line that ends it. */
+/* After the word METADATA: skips the rest of its line, and lines up to a blank one. */
 static void skip_metadata(OstMshCursor *cursor)
 {
-    OstMshText line;
+    OstMshText line = ost_msh_rest_of_line(cursor);
     do {
         line = ost_msh_rest_of_line(cursor);
     } while (line.length > 0 && cursor->next < cursor->end);

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/index_map.h"
+#include "core/memory.h"
+#include "formats/cells/cells.h"
+
+#include <string.h>
+#include <strings.h>
+
+/* Programs name faces by their nodes. Such a set becomes the faces: nodes that `order: 2`, refinement, or the split of
+ * a quadratic hexahedron add within them are then constrained too. */
+
+/* Faces all of whose nodes are in some set. */
+typedef struct Faces {
+    OstIndex *index; /* by their vertices */
+    OstLocal room;
+    OstGlobal *side;   /* of each: 4 × the tet's position + the vertex opposite; -1: between two tets */
+    unsigned char *in; /* of each node: is it in the set at hand, and on a face of it? */
+} Faces;
+enum { WITHIN = 1, COVERED = 2 };
+
+/* What shares its name with other sets or groups stays a set of nodes. */
+static int is_alone(const OstCells *cells, int s)
+{
+    const char *name = cells->set[s].name;
+    for (int i = 0; i < cells->set_count; i++)
+        if (i != s && cells->set[i].count > 0 && strcasecmp(cells->set[i].name, name) == 0)
+            return 0;
+    for (int n = 0; n < cells->name_count; n++)
+        if (strcasecmp(cells->name[n].name, name) == 0)
+            return 0;
+    return 1;
+}
+
+static int is_candidate(const OstCells *cells, int s)
+{
+    return cells->set[s].kind == OST_SET_OF_NODES && cells->set[s].count >= 3;
+}
+
+static void mark(const OstCells *cells, int s, unsigned char *in, unsigned char as)
+{
+    for (OstLocal i = 0; i < cells->set[s].count; i++) {
+        const OstGlobal node = ost_label_index_find(&cells->nodes, cells->set[s].item[i]);
+        if (node >= 0)
+            in[node] = as;
+    }
+}
+
+static int is_within(const unsigned char *in, int count, const OstGlobal *nodes)
+{
+    int within = 1;
+    for (int i = 0; i < count; i++)
+        within &= (in[nodes[i]] & WITHIN) != 0;
+    return within;
+}
+
+static void sort3(OstGlobal key[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const int i = k % 2;
+        const OstGlobal low = key[i] < key[i + 1] ? key[i] : key[i + 1];
+        key[i + 1] = key[i] + key[i + 1] - low;
+        key[i] = low;
+    }
+}
+
+static OstStatus add_face(const OstCells *cells, const OstGlobal *face, OstGlobal side, Faces *faces)
+{
+    OstGlobal key[3] = {face[0], face[1], face[2]};
+    OstLocal place = 0;
+    const OstLocal before = faces->index->count;
+    sort3(key);
+    OST_TRY(ost_index_place(faces->index, key, &place));
+    if (place == faces->room) {
+        OST_TRY(ost_cells_grow(cells, place, &faces->room));
+        OST_TRY(OST_RESIZE(cells->ctx, &faces->side, faces->room));
+    }
+    faces->side[place] = place == before ? side : -1;
+    return OST_SUCCESS;
+}
+
+/* Nodes that a split has added are in no set: their face's others decide. */
+static OstStatus find_faces(const OstCells *cells, OstCellKind tets, Faces *faces)
+{
+    const OstCellList *list = &cells->list[tets];
+    const int width = ost_cell_facts[tets].nodes, of_face = width == 4 ? 3 : 6;
+    OstGlobal face[6];
+    for (OstLocal t = 0; t < list->count; t++)
+        for (int v = 0; v < 4; v++) {
+            ost_cell_face_of(list->nodes + (size_t)t * (size_t)width, width, v, face);
+            if (is_within(faces->in, of_face, face))
+                OST_TRY(add_face(cells, face, 4 * (OstGlobal)t + v, faces));
+        }
+    return OST_SUCCESS;
+}
+
+/* Makes the set one of faces if each of its nodes is on one of them. */
+static OstStatus cover(OstCells *cells, int s, OstCellKind tets, Faces *faces)
+{
+    const OstCellList *list = &cells->list[tets];
+    const int width = ost_cell_facts[tets].nodes, of_face = width == 4 ? 3 : 6;
+    OstCellSet *set = &cells->set[s];
+    OstGlobal face[6], *side = NULL;
+    OstLocal count = 0;
+    memset(faces->in, 0, (size_t)cells->nodes.count);
+    memset(faces->in + cells->nodes.count, WITHIN, (size_t)(cells->chunk->node_count - cells->nodes.count));
+    mark(cells, s, faces->in, WITHIN);
+    OST_TRY(OST_NEW(cells->ctx, &side, faces->index->count));
+    for (OstLocal f = 0; f < faces->index->count; f++) {
+        const OstGlobal tet = faces->side[f] / 4;
+        if (faces->side[f] < 0)
+            continue;
+        ost_cell_face_of(list->nodes + (size_t)tet * (size_t)width, width, (int)(faces->side[f] % 4), face);
+        if (!is_within(faces->in, of_face, face))
+            continue;
+        side[count++] = faces->side[f];
+        for (int i = 0; i < of_face; i++)
+            faces->in[face[i]] |= COVERED;
+    }
+    int covered = count > 0;
+    for (OstGlobal n = 0; n < cells->nodes.count; n++)
+        covered &= faces->in[n] != WITHIN;
+    if (covered) {
+        OST_FREE(set->item);
+        *set = (OstCellSet){.kind = OST_SET_OF_SIDES, .name = set->name, .count = count, .room = count, .item = side};
+        return OST_SUCCESS;
+    }
+    OST_FREE(side);
+    return OST_SUCCESS;
+}
+
+static OstStatus cover_all(OstCells *cells, OstCellKind tets, Faces *faces)
+{
+    const OstGlobal added = cells->chunk->node_count - cells->nodes.count;
+    OST_TRY(ost_index_create(cells->ctx, 3, &faces->index));
+    OST_TRY(OST_NEW(cells->ctx, &faces->in, cells->chunk->node_count));
+    memset(faces->in + cells->nodes.count, WITHIN, (size_t)added);
+    for (int s = 0; s < cells->set_count; s++)
+        if (is_candidate(cells, s))
+            mark(cells, s, faces->in, WITHIN);
+    OST_TRY(find_faces(cells, tets, faces));
+    for (int s = 0; s < cells->set_count && faces->index->count > 0; s++)
+        if (is_candidate(cells, s) && is_alone(cells, s))
+            OST_TRY(cover(cells, s, tets, faces));
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cells_cover_faces(OstCells *cells, OstCellKind tets)
+{
+    Faces faces = {NULL};
+    int any = 0;
+    for (int s = 0; s < cells->set_count; s++)
+        any |= is_candidate(cells, s);
+    if (!any)
+        return OST_SUCCESS;
+    const OstStatus status = cover_all(cells, tets, &faces);
+    ost_index_destroy(&faces.index);
+    OST_FREE(faces.side);
+    OST_FREE(faces.in);
+    return status;
+}
