@@ -349,5 +349,6 @@ void ost_split_say(const OstSplit *split)
                              : --left == 1 ? " and "
                                            : ", ",
                              count[s], ost_cell_shape(first[s])->name[count[s] > 1]);
-    ost_log(split->chunk->ctx, OST_LOG_NORMAL, "%s: split %s into %" PRId64 " tets", split->path, text, split->tets);
+    ost_log(split->chunk->ctx, OST_LOG_NORMAL, "%s: split %s into %" PRId64 " %s", split->path, text, split->tets,
+            split->tets == 1 ? "tet" : "tets");
 }

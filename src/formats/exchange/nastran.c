@@ -212,13 +212,15 @@ static OstStatus read_cell(Nastran *nastran, const Card *card)
         middles += field_of(nastran, 2 + n)[0] != '\0' && strcmp(field_of(nastran, 2 + n), "0") != 0;
     if (middles > 0 && middles < all - vertices) {
         nastran->cursor.place = nastran->line;
-        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has %d of %d mid-edge nodes", label, middles,
-                             all - vertices);
+        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has %d of %d mid-edge nodes, expected all or none",
+                             label, middles, all - vertices);
     }
     if (ost_cell_facts[linear].dimension == 3 && field_of(nastran, 2 + all)[0]) {
         nastran->cursor.place = nastran->line;
-        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has more nodes than the %d of a %s", label, all,
-                             nastran->name);
+        return OST_RAISE_MSH(&nastran->cursor,
+                             "element %" PRId64
+                             " has more nodes than the %d of a %s (in Gmsh: Mesh.SecondOrderIncomplete = 1)",
+                             label, all, nastran->name);
     }
     for (int n = 0; n < (middles > 0 ? all : vertices); n++)
         OST_TRY(take_integer(nastran, "a node", 2 + n, &nodes[n]));

@@ -62,8 +62,10 @@ static OstStatus join_run(OstMeshChunk *chunk, const char *path, const OstLocal 
         const OstLocal before = first[i - 1].tet, tet = first[i].tet;
         if (region[tet] == region[before] && chunk->tet_label[tet] != chunk->tet_label[before])
             return OST_RAISE(chunk->ctx, OST_INVALID_INPUT,
-                             "%s: tets %" PRId64 " and %" PRId64 " of region '%s' have the same vertices; remove one",
-                             path, chunk->tet_label[before], chunk->tet_label[tet], chunk->regions.name[region[tet]]);
+                             "%s: %s %" PRId64 " and %" PRId64 " of region '%s' have the same vertices; remove one",
+                             path, chunk->of_cells ? "tets of the elements" : "tets",
+                             ost_cell_label(chunk->of_cells, chunk->tet_label[before]),
+                             ost_cell_label(chunk->of_cells, chunk->tet_label[tet]), chunk->regions.name[region[tet]]);
         if (count[region[tet]] < count[smallest])
             smallest = region[tet];
     }

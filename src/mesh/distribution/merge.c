@@ -67,6 +67,11 @@ static OstStatus check_tolerance(const Merge *merge, double tolerance)
     OST_TRY(find_shortest_edge(merge, &shortest, &label));
     if (tolerance < shortest)
         return OST_SUCCESS;
+    if (shortest == 0.0)
+        return OST_RAISE(
+            merge->chunk->ctx, OST_INVALID_INPUT,
+            "merge: two nodes of tet %lld lie in one place; give both corners the same node in the mesh file",
+            (long long)label);
     return OST_RAISE(
         merge->chunk->ctx, OST_INVALID_INPUT,
         "merge: %g would join vertices of tet %lld, which has an edge of length %g; give a smaller distance", tolerance,
