@@ -257,6 +257,7 @@ def cells(with_pyramids):
 
 
 def other_solids():
+    os.chdir(HERE)
     for with_pyramids, incomplete, name, endings in (
             (True, None, "linear", ("bdf", "vtk", "msh")), (False, None, "bricks-linear", ("inp", "unv")),
             (True, 1, "serendipity", ("msh",)), (False, 1, "bricks-serendipity", ("inp", "bdf", "unv", "vtk")),
@@ -275,7 +276,7 @@ def other_solids():
             gmsh.option.setNumber("Mesh.SecondOrderIncomplete", incomplete)
             gmsh.model.mesh.setOrder(2)
         for ending in endings:
-            gmsh.write(os.path.join(HERE, f"solids-{name}.{ending}"))
+            gmsh.write(f"solids-{name}.{ending}")  # it writes the path into the file
         gmsh.finalize()
     points, found = cells(True)
     blocks = [(shape, np.array([nodes])) for shape, _, nodes in found]
