@@ -67,20 +67,6 @@ static void path_of(const char *name, char path[512])
     snprintf(path, 512, "%s/tests/formats/exchange/%s", getenv("ORTHOSTAT_SOURCE"), name);
 }
 
-/* Mid-edge nodes lie in the middle of their edges. */
-static void check_mid_nodes(const OstMeshChunk *chunk)
-{
-    for (OstLocal t = 0; t < chunk->tet_count && chunk->nodes_per_tet == 10; t++) {
-        const OstGlobal *nodes = chunk->tet_nodes + 10 * (size_t)t;
-        for (int e = 0; e < 6; e++)
-            for (int d = 0; d < 3; d++)
-                assert_close(chunk->coordinates[3 * nodes[4 + e] + d],
-                             0.5 * (chunk->coordinates[3 * nodes[ost_tet_edge[e][0]] + d] +
-                                    chunk->coordinates[3 * nodes[ost_tet_edge[e][1]] + d]),
-                             1e-12);
-    }
-}
-
 static void check_clamp(const OstMeshChunk *chunk, int f)
 {
     const OstBoundary *clamp = NULL;
@@ -106,7 +92,6 @@ static void stored_files_hold_two_cubes(void **state)
         assert_int_equal(chunk->boundary_count, files[f].boundaries);
         assert_int_equal(chunk->regions.count, 2);
         check_cubes(chunk, files[f].left, files[f].right);
-        check_mid_nodes(chunk);
         check_clamp(chunk, f);
         ost_chunk_destroy(&chunk);
     }

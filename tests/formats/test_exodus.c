@@ -41,19 +41,6 @@ static void check_boundary(const OstMeshChunk *chunk, const char *name, int dime
         assert_true(chunk->coordinates[3 * boundary->nodes[i]] == x);
 }
 
-static void check_mid_nodes(const OstMeshChunk *chunk)
-{
-    for (OstLocal t = 0; t < chunk->tet_count && chunk->nodes_per_tet == 10; t++) {
-        const OstGlobal *nodes = chunk->tet_nodes + 10 * (size_t)t;
-        for (int e = 0; e < 6; e++)
-            for (int d = 0; d < 3; d++)
-                assert_close(chunk->coordinates[3 * nodes[4 + e] + d],
-                             0.5 * (chunk->coordinates[3 * nodes[ost_tet_edge[e][0]] + d] +
-                                    chunk->coordinates[3 * nodes[ost_tet_edge[e][1]] + d]),
-                             1e-12);
-    }
-}
-
 static void files_hold_two_cubes(void **state)
 {
     (void)state;
@@ -65,7 +52,6 @@ static void files_hold_two_cubes(void **state)
         OstMeshChunk *chunk = read_cubes(path, 0, files[f].nodes, TETS);
         assert_int_equal(chunk->boundary_count, files[f].boundaries);
         check_cubes(chunk, files[f].left, files[f].right);
-        check_mid_nodes(chunk);
         check_boundary(chunk, files[f].clamp, 2, 4, 0.0);
         check_boundary(chunk, "pins", 2, 4, 2.0); /* all nodes of these faces */
         if (files[f].by_netcdf) {
@@ -140,7 +126,6 @@ static void other_solids_are_read(void **state)
         path_of(solids[f].name, path);
         OstMeshChunk *chunk = read_cubes(path, 0, solids[f].nodes, 24);
         check_cubes(chunk, NULL, NULL);
-        check_mid_nodes(chunk);
         check_boundary(chunk, "clamp", 2, 2, 0.0);
         check_boundary(chunk, "end", 2, 2, 2.0);
         assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));

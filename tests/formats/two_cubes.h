@@ -59,10 +59,25 @@ static double volume_of(const OstMeshChunk *chunk, const OstGlobal *nodes)
            6.0;
 }
 
-/* Tets fill both cubes. Those of each are in the region of its name, if there is one. */
+/* Mid-edge nodes lie in the middle of their edges. */
+static void check_mid_nodes(const OstMeshChunk *chunk)
+{
+    for (OstLocal t = 0; t < chunk->tet_count && chunk->nodes_per_tet == 10; t++) {
+        const OstGlobal *nodes = chunk->tet_nodes + 10 * (size_t)t;
+        for (int e = 0; e < 6; e++)
+            for (int d = 0; d < 3; d++)
+                assert_close(chunk->coordinates[3 * nodes[4 + e] + d],
+                             0.5 * (chunk->coordinates[3 * nodes[ost_tet_edge[e][0]] + d] +
+                                    chunk->coordinates[3 * nodes[ost_tet_edge[e][1]] + d]),
+                             1e-12);
+    }
+}
+
+/* Tets with straight edges fill both cubes. Those of each are in the region of its name, if there is one. */
 static void check_cubes(const OstMeshChunk *chunk, const char *left, const char *right)
 {
     double volume[2] = {0.0, 0.0};
+    check_mid_nodes(chunk);
     for (OstLocal t = 0; t < chunk->tet_count; t++) {
         const double x = centre_x(chunk, t);
         volume[x > 1.0] += volume_of(chunk, chunk->tet_nodes + (size_t)t * (size_t)chunk->nodes_per_tet);
