@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
 #include "solve/linear.h"
 #include "solve/newton.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Large rotations: first the linear solve, which costs little, tells how much the body turns, and is the first
@@ -73,6 +75,17 @@ static OstStatus leave_mixed(OstAnalysis *analysis, OstResult *result)
     return ost_stiffness_solver_make(&((OstLinear *)analysis->work)->stiffness);
 }
 
+/* The unfolded stiffness is the largest array that Newton's method adds: where it does not fit, that is said at once.
+ */
+static OstStatus unfold(OstProblem *problem)
+{
+    const OstBlockMatrix *matrix = problem->system->matrix;
+    const OstLocal blocks = matrix->upper ? matrix->row_start[matrix->rows] : 0;
+    OST_TRY(
+        ost_memory_foresee(problem->ctx, 9.0 * sizeof(double) * (double)blocks, "the stiffness for large rotations"));
+    return ost_problem_unfold_stiffness(problem);
+}
+
 static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     OstProblem *problem = analysis->problem;
@@ -82,7 +95,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstNewton *newton = NULL;
     OstNewtonState state = {0};
     ost_problem_take_formulation(problem, problem->beyond_linear);
-    OST_TRY(ost_problem_unfold_stiffness(problem));
+    OST_TRY(unfold(problem));
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
@@ -102,6 +115,15 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     return status;
 }
 
+/* Adds to the failure that there is no room for large rotations what the case could ask for instead. */
+static OstStatus name_linear(OstContext *ctx, double linear_error)
+{
+    char reason[1024];
+    snprintf(reason, sizeof reason, "%s", ost_error_text(ctx));
+    return OST_RAISE(ctx, OST_OUT_OF_MEMORY, "%s; 'large_rotation: off' takes less and is off by about %.2g %%", reason,
+                     100.0 * linear_error);
+}
+
 static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     const OstProblem *problem = analysis->problem;
@@ -111,7 +133,9 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
         return OST_SUCCESS;
     if (analysis->company)
         return OST_RAISE(analysis->ctx, OST_NOT_CONVERGED, "rotations are too large to be solved for in company");
-    return go_on(analysis, result, solved_for);
+    const double linear_error = result->newton.linear_error;
+    const OstStatus status = go_on(analysis, result, solved_for);
+    return status == OST_OUT_OF_MEMORY && problem->automatic ? name_linear(analysis->ctx, linear_error) : status;
 }
 
 static void release(OstAnalysis *analysis)
