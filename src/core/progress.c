@@ -19,6 +19,8 @@ static struct {
     int on_terminal, shown;
     volatile int ready;
     char text[160];
+    double
+        expected; /* seconds that the whole was foretold to take; 0: the text tells of the whole, or nothing is known */
     double start, drawn, logged;
 } line;
 
@@ -68,6 +70,25 @@ static void append_seconds(char *text, double seconds)
     }
 }
 
+/* By what was foretold of the whole. */
+static void append_whole(char *text, double since)
+{
+    const double left = line.expected - since;
+    if (!(line.expected > 0.0))
+        return;
+    if (left < 0.0) {
+        strcat(text, "longer than the ");
+        append_seconds(text, line.expected);
+        strcat(text, " foretold");
+    } else {
+        append_number(text, (long)(100.0 * since / line.expected));
+        strcat(text, " % of the whole, about ");
+        append_seconds(text, left);
+        strcat(text, " left");
+    }
+    strcat(text, " | ");
+}
+
 static void show(double now)
 {
     char text[320] = "";
@@ -82,6 +103,7 @@ static void show(double now)
         append_seconds(text, since);
         strcat(text, ": ");
     }
+    append_whole(text, since);
     strcat(text, line.text);
     if (line.on_terminal && since >= 1.0) {
         strcat(text, " (");
@@ -133,29 +155,13 @@ static void write_progress(const OstProgress *of, double now, char *text, size_t
     }
 }
 
-/* By what was foretold of the whole. */
-static void foretell(const OstContext *ctx, double now, char *text, size_t size)
-{
-    const double elapsed = now - line.start, left = ctx->expected - elapsed;
-    if (!(ctx->expected > 0.0))
-        return;
-    snprintf(text, size, "%.0f %% of the whole", 100.0 * (left > 0.0 ? elapsed / ctx->expected : 1.0));
-    if (left >= 1.0) {
-        strcat(text, ", about ");
-        append_seconds(text, left);
-        strcat(text, " left");
-    }
-}
-
-/* The whole, if it is known how far that is, and the phase in it. */
+/* How far a row of runs is, if this is one, and the phase. */
 static void compose(OstContext *ctx)
 {
     const double now = ost_seconds();
     char whole[160] = "", phase[160] = "", text[sizeof line.text];
     if (ctx->task.what[0])
         write_progress(&ctx->task, now, whole, sizeof whole);
-    else
-        foretell(ctx, now, whole, sizeof whole);
     if (ctx->phase.what[0] && ctx->phase.fraction >= 0.0)
         write_progress(&ctx->phase, now, phase, sizeof phase);
     else
@@ -163,6 +169,7 @@ static void compose(OstContext *ctx)
     snprintf(text, sizeof text, "%.80s%s%.76s", whole, whole[0] && phase[0] ? " | " : "", phase);
     line.ready = 0;
     memcpy(line.text, text, sizeof text);
+    line.expected = whole[0] ? 0.0 : ctx->expected;
     line.ready = text[0] != 0;
     show(now);
 }
