@@ -251,17 +251,20 @@ static void launch_scale(int argc, char **argv)
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     if (ranks < 2 || length <= 0)
         return;
-    char **words = calloc((size_t)argc + 5, sizeof *words);
+    char **words = calloc((size_t)argc + 4, sizeof *words);
     if (!words)
         return;
     snprintf(count, sizeof count, "%d", ranks);
-    char *const start[] = {"mpirun", "--quiet", "-n", count, program};
-    for (size_t i = 0; i < 5; i++)
+    char *const start[] = {"mpirun", "-n", count, program};
+    for (size_t i = 0; i < 4; i++)
         words[i] = start[i];
     for (int i = 1; i < argc; i++)
-        words[4 + i] = argv[i];
-    /* More ranks than cores are meant, and so is root, who has started this program. */
+        words[3 + i] = argv[i];
+    /* More ranks than cores are meant (Open MPI 4 and 5), and so is root, who has started this program, which itself
+     * says what fails. */
     setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
+    setenv("PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe", 0);
+    setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
     if (isatty(STDERR_FILENO))

@@ -35,7 +35,7 @@ def fewer(choices):
 def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
     command = [program, *map(str, arguments)]
     if ranks > 1:
-        command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+        command = [MPIEXEC, "-n", str(ranks), *command]
     process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, text=True, timeout=timeout)
     return Finished(process)
