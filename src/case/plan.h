@@ -116,4 +116,8 @@ int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 /* Local. Predicts the plan's bytes from its counts, method and effects. */
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan);
 
+/* Local. Leaves the error estimate out, with the reason, where all else fits into `room` bytes and that does not; one
+ * that an accuracy is asked for by stays. */
+void ost_plan_fit(const OstCase *c, int ranks, double room, OstPlan *plan);
+
 #endif

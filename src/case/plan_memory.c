@@ -4,6 +4,7 @@
 #include "fields/output_field.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Bytes at the peak of a run, when the solver is made or solves. Where arrays follow from the data structures (of
  * mesh.h, block_matrix.h, level_matrix.h, prolongator.h) their sizes are stated; the rest, marked as measured, is
@@ -147,9 +148,27 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     if (plan->solver.first != OST_METHOD_DIRECT && plan->solver.first != OST_METHOD_PLAIN)
         foretell_hierarchy(plan, ranks, &plan->levels);
     plan->bytes_solver = solver_bytes(plan);
+    plan->bytes_effects = 0.0;
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
     plan->bytes_in_all = plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects - estimate - recovery +
                          fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery);
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
+}
+
+void ost_plan_fit(const OstCase *c, int ranks, double room, OstPlan *plan)
+{
+    const OstPlan with = *plan;
+    const double gibibyte = 1073741824.0;
+    char reason[160];
+    if (c->asks_error || plan->bytes_in_all <= room || !ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE))
+        return;
+    snprintf(reason, sizeof reason, "with it the run would take about %.3g GiB, and %.3g GiB are free",
+             plan->bytes_in_all / gibibyte, room / gibibyte);
+    ost_effects_leave_out(&plan->effects, OST_EFFECT_ERROR_ESTIMATE, reason);
+    ost_plan_memory(c, ranks, plan);
+    if (plan->bytes_in_all > room)
+        *plan = with;
+    else
+        plan->facts.stops_early = 0;
 }

@@ -99,6 +99,7 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
     else
         OST_TRY(plan_with_shape(ctx, c, plan));
     OST_TRY(ost_memory_free(ctx, &plan->facts.free_memory));
+    ost_plan_fit(c, ost_size(ctx), plan->facts.free_memory, plan);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     return OST_SUCCESS;
 }

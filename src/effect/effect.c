@@ -386,6 +386,11 @@ void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
             off(&effects->state[e], "left out, to see what it changes");
 }
 
+void ost_effects_leave_out(OstEffects *effects, OstEffect effect, const char *reason)
+{
+    off(&effects->state[effect - OST_EFFECT_FIRST], reason);
+}
+
 void ost_effects_name_accounts(OstContext *ctx)
 {
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)

@@ -108,6 +108,9 @@ typedef struct OstEffects {
 /* Local. Applies every rule of the table; what is left out is off. */
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects);
 
+/* Local. Turns an effect off that a rule has turned on. */
+void ost_effects_leave_out(OstEffects *effects, OstEffect effect, const char *reason);
+
 /* Local. Is the mixed form on? Told before the others, as the solver's plan depends on it, and they on the plan. */
 int ost_effects_mixed(const OstEffectFacts *facts);
 

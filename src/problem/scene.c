@@ -5,6 +5,7 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/free_memory.h"
 #include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "orthostat/problem.h"
@@ -219,6 +220,30 @@ static OstStatus make_drive(OstScene *scene)
     return ost_agree(c->ctx, status);
 }
 
+/* The mesh is there already. What is foretold may be off by a tenth or so: a run that may not fit is told of, not
+ * refused. */
+static OstStatus fit_memory(OstScene *scene)
+{
+    const OstCase *c = scene->c;
+    OstPlan *plan = &scene->plan;
+    const int was_on = ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE);
+    double room = 0.0;
+    OST_TRY(ost_memory_free(c->ctx, &room));
+    room += plan->bytes_mesh;
+    ost_plan_fit(c, ost_size(c->ctx), room, plan);
+    const OstEffectState *estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE);
+    if (was_on && !estimate->on)
+        ost_warn(c->ctx, "%s: the error of the answer is not estimated: %s; use more machines, or a coarser mesh",
+                 c->path, estimate->reason);
+    else if (plan->bytes_in_all > room)
+        ost_warn(
+            c->ctx,
+            "%s: the run may need about %.3g GiB, and %.3g GiB are free: the system may end it; use more machines, "
+            "or a coarser mesh",
+            c->path, plan->bytes_in_all / 1073741824.0, room / 1073741824.0);
+    return OST_SUCCESS;
+}
+
 static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
 {
     const OstMesh *mesh = scene->mesh;
@@ -236,7 +261,7 @@ static OstStatus make_plan(OstScene *scene, const OstFileMaterials *from_file)
     if (facts.quadratic && !(ost_plan_shape_surface(c) > 0.0))
         OST_TRY(ost_mesh_surface_faces(mesh, &facts.surface));
     ost_plan_make(c, &facts, ost_size(c->ctx), &scene->plan);
-    return OST_SUCCESS;
+    return fit_memory(scene);
 }
 
 static OstStatus copy_file_materials(OstContext *ctx, const OstFileMaterials *from, OstFileMaterials **to)

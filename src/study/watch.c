@@ -202,8 +202,8 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 /* Why there is no error, in words. */
 static const char *find_why(const OstScene *scene, const OstResult *result, const OstWatch *watch)
 {
-    if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE))
-        return NULL; /* not asked for */
+    if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE)) /* not asked for, or no room for it */
+        return ost_plan_writes(scene->c, OST_FIELD_ERROR) ? "the error of the answer is not estimated" : NULL;
     if (!result->answer.known)
         return "that of the answer is not";
     switch (watch->kind) {

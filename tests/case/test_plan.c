@@ -294,6 +294,37 @@ static void more_ranks_hold_more_halo(void **state)
     ost_case_destroy(&c);
 }
 
+static void an_estimate_that_does_not_fit_is_left_out(void **state)
+{
+    (void)state;
+    const OstPlanMesh mesh = {.nodes = 1331, .tets = 6000};
+    assert_success(read_text(CUBE STEEL, &c));
+    ost_plan_make(c, &mesh, 1, &plan);
+    const OstPlan with = plan;
+    c->output_fields &= ~(1U << OST_FIELD_ERROR);
+    ost_plan_make(c, &mesh, 1, &plan);
+    const double without = plan.bytes_in_all;
+    c->output_fields |= 1U << OST_FIELD_ERROR;
+    assert_true(without < with.bytes_in_all);
+
+    plan = with;
+    ost_plan_fit(c, 1, with.bytes_in_all, &plan);
+    assert_true(ost_effect_on(&plan.effects, OST_EFFECT_ERROR_ESTIMATE));
+    ost_plan_fit(c, 1, without, &plan);
+    assert_false(ost_effect_on(&plan.effects, OST_EFFECT_ERROR_ESTIMATE));
+    assert_close(plan.bytes_in_all, without, 0.0);
+    assert_non_null(strstr(ost_effect_state(&plan.effects, OST_EFFECT_ERROR_ESTIMATE)->reason, "GiB are free"));
+
+    plan = with; /* nor would the run without it fit: it is not to blame */
+    ost_plan_fit(c, 1, 0.9 * without, &plan);
+    assert_true(ost_effect_on(&plan.effects, OST_EFFECT_ERROR_ESTIMATE));
+    plan = with;
+    c->asks_error = 1;
+    ost_plan_fit(c, 1, without, &plan);
+    assert_true(ost_effect_on(&plan.effects, OST_EFFECT_ERROR_ESTIMATE));
+    ost_case_destroy(&c);
+}
+
 /* The scenes that come with Orthostat are all read, and the four tubes say what they are. */
 static void the_scenes_of_the_house_are_read(void **state)
 {
@@ -337,6 +368,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(quadratic_tets_are_counted),
     cmocka_unit_test(a_file_is_refined_and_raised),
     cmocka_unit_test(more_ranks_hold_more_halo),
+    cmocka_unit_test(an_estimate_that_does_not_fit_is_left_out),
     cmocka_unit_test(the_scenes_of_the_house_are_read),
 };
 

@@ -62,8 +62,8 @@ for number in signal.SIGINT, signal.SIGTERM:
     code = interrupt([PROGRAM, "solve", "bar.yaml"], number, False)
     check(code == 130, f"signal {number}: exit {code}")
 for ranks in 2, 4:
-    interrupt([MPIEXEC, "--quiet", "-n", str(ranks), PROGRAM, "solve", "bar.yaml"], signal.SIGINT, False)
-code = interrupt([MPIEXEC, "--quiet", "-n", "2", PROGRAM, "solve", "bar.yaml"], signal.SIGTERM, True)
+    interrupt([MPIEXEC, "-n", str(ranks), PROGRAM, "solve", "bar.yaml"], signal.SIGINT, False)
+code = interrupt([MPIEXEC, "-n", "2", PROGRAM, "solve", "bar.yaml"], signal.SIGTERM, True)
 check(code == 130, f"a rank ended with 130, mpirun with {code}")
 
 # --- a file that is half written goes, one that is complete stays ---

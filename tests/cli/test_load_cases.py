@@ -171,7 +171,7 @@ plain = json.loads(run("solve", "beam.yaml", "--set", "large_rotation=off", "--c
                        folder=folder).output)
 check(close(single["watched"]["end"]["value"], 2 * plain["watched"]["end"]["value"], 1e-8), (single, plain))
 os.mkdir(os.path.join(folder, "elsewhere"))
-for command in ([PROGRAM], [MPIEXEC, "--quiet", "-n", "2", PROGRAM]):
+for command in ([PROGRAM], [MPIEXEC, "-n", "2", PROGRAM]):
     piped = subprocess.run([*command, "solve", "-", "--case", "push", "-q", "--set", "output.file=piped.vtkhdf"],
                            cwd=os.path.join(folder, "elsewhere"), input=CASE, capture_output=True, text=True, timeout=240)
     check(piped.returncode == 0, piped.stderr)

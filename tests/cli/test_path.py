@@ -86,7 +86,7 @@ def kill_and_resume(ranks, seconds):
     folder = folder_with_case()
     command = [PROGRAM, "solve", "bar.yaml", "-q", "--resume"]
     if ranks > 1:
-        command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+        command = [MPIEXEC, "-n", str(ranks), *command]
     for killed in range(20):
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL, start_new_session=True)

@@ -26,7 +26,7 @@ def run(*command, folder):
 
 with tempfile.TemporaryDirectory(prefix="orthostat-") as scratch:
     for ranks, mpi in (1, "none"), (2, "mpi4py"):
-        start = [MPIEXEC, "--quiet", "-n", str(ranks)] if ranks > 1 else []
+        start = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
         said = run(*start, sys.executable, os.path.join(HERE, "on_ranks.py"), mpi, scratch, folder=scratch)
         check(said == "done\n", f"on {ranks} ranks it said: {said}")
 
@@ -39,7 +39,7 @@ with tempfile.TemporaryDirectory(prefix="orthostat-") as scratch:
 
     # The example, and its picture.
     picture = os.path.join(scratch, "spiral.png")
-    said = run(MPIEXEC, "--quiet", "-n", "2", sys.executable, os.path.join(SOURCE, pictures.SPIRAL), "--picture", picture,
+    said = run(MPIEXEC, "-n", "2", sys.executable, os.path.join(SOURCE, pictures.SPIRAL), "--picture", picture,
                folder=scratch)
     check_drawn("spiral-grain.png", pictures.numbers_of_spiral(said), 0.01, "python")
     check(os.path.getsize(picture) > 10000, "no picture")
@@ -48,5 +48,5 @@ with tempfile.TemporaryDirectory(prefix="orthostat-") as scratch:
     lonely = os.path.join(scratch, "lonely.py")
     with open(lonely, "w", encoding="utf-8") as stream:
         stream.write("import orthostat\ncontext = orthostat.Context()\n1 / context.rank\ncontext.gather([1])\n")
-    failed = call(MPIEXEC, "--quiet", "-n", "2", sys.executable, lonely, folder=scratch)
+    failed = call(MPIEXEC, "-n", "2", sys.executable, lonely, folder=scratch)
     check(failed.returncode == 1 and "ZeroDivisionError" in failed.stderr, failed.stderr)
