@@ -27,7 +27,7 @@ SHORT = [*LADDER, "--refinements", "0,1", "--accuracies", "-"]
 def run(*arguments, ranks=1, folder=None):
     command = [PROGRAM, "cost", *arguments]
     if ranks > 1:
-        command = [MPIEXEC, "--quiet", "-n", str(ranks), *command]
+        command = [MPIEXEC, "-n", str(ranks), *command]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=100, stdin=subprocess.DEVNULL)
 
 
@@ -232,7 +232,7 @@ class Cost(unittest.TestCase):
                                   ("'strip.yaml' is not a folder", "--picture", "strip.yaml")):
             command = [PROGRAM, "verify", "--quick", "./strip.yaml", *arguments]
             if words.startswith("cannot make"):
-                command = [MPIEXEC, "--quiet", "-n", "2", *command]
+                command = [MPIEXEC, "-n", "2", *command]
             finished = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60)
             self.assertEqual(finished.returncode, 2, finished)
             self.assertIn(words, finished.stderr)
