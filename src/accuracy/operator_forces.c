@@ -7,6 +7,7 @@
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
@@ -22,8 +23,8 @@
 /* --- forces --- */
 
 /* The strain of a displacement gradient (row-major), less the eigenstrain. */
-static void find_strain(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9], OstPolar *polar,
-                        OstSimd elastic[6])
+static inline void find_strain(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
+                               OstPolar *polar, OstSimd elastic[6])
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
     OstSimd strain[6];
@@ -46,8 +47,8 @@ static inline int is_about_line(const Cells *cells)
 }
 
 /* The first Piola stress, times the volume; `mean` is that of the stiff mode over the tet. */
-static void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
-                        const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
+static inline void find_stress(const Cells *cells, OstFormulation formulation, int q, const OstSimd slope[9],
+                               const OstSimd *mean, const OstSimd *volume, OstSimd piola[9])
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     const OstElasticity *elasticity = &cells->batch.elasticity;
@@ -101,7 +102,7 @@ static inline void find_slope(const Cells *cells, const OstPoint *point, OstSimd
 }
 
 /* R at a point of the turned body. */
-static void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
+static inline void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
 {
     OstSimd slope[9];
     OstPolar polar;
@@ -111,7 +112,7 @@ static void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rot
 }
 
 /* R' slope, and R slope. */
-static void turn_back(const OstSimd rotation[9], OstSimd slope[9])
+static inline void turn_back(const OstSimd rotation[9], OstSimd slope[9])
 {
     OstSimd given[9];
     memcpy(given, slope, sizeof given);
@@ -120,7 +121,7 @@ static void turn_back(const OstSimd rotation[9], OstSimd slope[9])
             slope[3 * i + j] = rotation[i] * given[j] + rotation[3 + i] * given[3 + j] + rotation[6 + i] * given[6 + j];
 }
 
-static void turn(const OstSimd rotation[9], OstSimd slope[9])
+static inline void turn(const OstSimd rotation[9], OstSimd slope[9])
 {
     OstSimd given[9];
     memcpy(given, slope, sizeof given);
@@ -157,8 +158,8 @@ static void find_mean(const Cells *cells, const OstElement *element, OstFormulat
 }
 
 /* Forces of a batch; w may be NULL. */
-static void forces_of(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
-                      const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+OST_KERNEL static void forces_of(const Cells *cells, const OstElement *element, OstFormulation formulation,
+                                 const OstSimd *u, const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
     OstSimd mean = {0};
     memset(at_nodes, 0, 3 * (size_t)cells->nodes * sizeof *at_nodes);

@@ -47,11 +47,12 @@ static void add_batch(const Request *request, const OstElement *element, const O
     OstSimd of_tets[3 * OST_MAX_TET_NODES];
     const OstLocal owned = request->mesh->owned_nodes;
     ost_batch_gather_vectors(batch, element->nodes, request->u, displacement);
-    if (request->formulation == OST_FORMULATION_LINEAR)
+    if (request->force && request->formulation == OST_FORMULATION_LINEAR)
         element->force(batch->x, &batch->elasticity, displacement, of_tets);
-    else
+    else if (request->force)
         ost_large_rotation_force(element, request->formulation, batch->x, &batch->elasticity, displacement, of_tets);
-    scatter(batch, element->nodes, of_tets, 1.0, owned, request->force);
+    if (request->force)
+        scatter(batch, element->nodes, of_tets, 1.0, owned, request->force);
     if (!request->magnitude)
         return;
     element->magnitude(batch->x, &batch->elasticity, displacement, of_tets);
@@ -80,13 +81,14 @@ static OstStatus add_all(void *common, int count, void *const *request)
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
                                 double t, const double *u, double *force, double *magnitude)
 {
-    const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *force;
+    const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *u;
     Request request = {mesh, field, formulation, t, u, force, magnitude};
     void *const alone = &request;
     if (!ost_element_of(mesh->nodes_per_tet))
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
                          mesh->nodes_per_tet);
-    memset(force, 0, bytes);
+    if (force)
+        memset(force, 0, bytes);
     if (magnitude)
         memset(magnitude, 0, bytes);
     if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */

@@ -160,7 +160,8 @@ OST_KERNEL static void tet4_force(const OstSimd *x, const OstElasticity *elastic
         force[i] = -(force[3 + i] + force[6 + i] + force[9 + i]);
 }
 
-static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude)
+OST_KERNEL static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
+                                      OstSimd *magnitude)
 {
     OstSimd g[4][3];
     OstSimd strain[6] = {{0}};
@@ -186,7 +187,7 @@ static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, co
         ost_force_of_stress(g[a], stress, magnitude + 3 * a);
 }
 
-static void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], OstSimd *determinant)
+static inline void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], OstSimd *determinant)
 {
     OstSimd gradient[3][3];
     OstSimd factor;
@@ -197,7 +198,7 @@ static void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strain[6], O
         strain[p] /= *determinant;
 }
 
-static void tet4_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
+OST_KERNEL static void tet4_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)
 {
     OstSimd determinant;
     OstSimd elastic[6];
@@ -229,7 +230,7 @@ static const OstQuadrature *tet4_rule(const OstSimd *x, const OstElasticity *ela
     return &ost_tet_degree1;
 }
 
-static void tet4_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
+OST_KERNEL static void tet4_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
 {
     OstSimd scaled[3][3];
     OstSimd factor; /* 1 / (6 |determinant|) */

@@ -25,4 +25,9 @@ extern const int ost_tet10_ends[10][2];
  * are linear combinations of the blocks of the linear tets on the same vertices. */
 void ost_tet10_straight_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks);
 
+/* Local. Of the same tets, but for those of a mixed form, the forces, and the means, of which `stiff` is to be given.
+ * Where C is split, the forces lack those of the stiff mode. */
+void ost_tet10_straight_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
+void ost_tet10_straight_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
+
 #endif

@@ -178,6 +178,8 @@ static void add_node(OstResult *result, const Body *body, const LinkForces *link
 /* Strain energy from strains and stresses, not from nodal forces, so that it checks their work; and the largest strain
  * and rotation, found on the way. */
 typedef struct TetSums {
+    OstResult *result;
+    OstMeansVisit also;
     OstFormulation formulation;
     double energy, eigen;
     OstLinearity largest;
@@ -187,6 +189,8 @@ static void add_tets(void *data, const OstBatch *batch, const OstElement *elemen
                      const OstMeans *means)
 {
     TetSums *tets = data;
+    if (tets->also)
+        tets->also(tets->result, batch, element, u, means);
     ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
     for (int slot = 0; slot < batch->count; slot++) {
         tets->energy += means->energy[slot] * means->volume[slot];
@@ -451,26 +455,28 @@ static OstStatus find_volume_ratio(const OstProblem *problem, OstResult *result)
 }
 
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
-                          OstResult *result)
+                          OstMeansVisit also, OstResult *result)
 {
     OstContext *ctx = problem->ctx;
     const OstMesh *mesh = problem->mesh;
     OstChecks *checks = &result->checks;
-    double *internal = NULL, *magnitude = NULL, *eigen = NULL;
+    double *internal = result->internal, *magnitude = NULL, *eigen = NULL;
+    const int is_summed = internal != NULL;
     double sums[SUM_COUNT] = {0.0};
     OstVolumeError volume;
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
-    TetSums tets = {.formulation = problem->formulation};
+    TetSums tets = {.result = result, .also = also, .formulation = problem->formulation};
     LinkForces links = {.links = problem->supports->links};
     /* What double precision attained, or the error of the answer made do with. */
     if (result->solve.rounding_limited || result->solve.stopped)
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
-    OstStatus status = OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
+    result->internal = NULL;
+    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
     OST_THEN(ost_internal_force_of(mesh, problem->field, problem->formulation, result->t, result->displacement,
-                                   internal, magnitude));
+                                   is_summed ? NULL : internal, magnitude));
     if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
         status = OST_NEW(ctx, &eigen, 3 * (size_t)mesh->owned_nodes);
         OST_THEN(ost_eigenstrain_force(mesh, problem->field, result->t, eigen));

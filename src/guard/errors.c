@@ -143,17 +143,15 @@ static OstStatus of_pressure(const OstProblem *problem, size_t n, const double *
 }
 
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                           const double *error, OstErrors *errors)
+                           const double *internal, const double *error, OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
-    double *internal = NULL, *wrong = NULL, *load = NULL, *straining = NULL;
+    double *wrong = NULL, *load = NULL, *straining = NULL;
     double sums[SUMS] = {0.0}, swollen = 0.0, pressed = 0.0;
-    OstStatus status = OST_NEW(ctx, &internal, n);
-    OST_THEN(OST_NEW(ctx, &wrong, n));
+    OstStatus status = OST_NEW(ctx, &wrong, n);
     OST_THEN(OST_NEW(ctx, &load, n));
     OST_THEN(OST_NEW(ctx, &straining, n));
-    OST_THEN(ost_problem_force(problem, 1.0, displacement, internal));
     OST_THEN(ost_problem_force(of_error, 0.0, error, wrong));
     OST_THEN(add_all_stresses(problem, of_error, displacement, error, sums));
     if (status == OST_SUCCESS) {
@@ -183,7 +181,6 @@ OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error
                           .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
                           .stress = relative(sums[STRESS_ERROR], stress)};
 done:
-    OST_FREE(internal);
     OST_FREE(wrong);
     OST_FREE(load);
     OST_FREE(straining);

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_GUARD_GUARD_H
 #define ORTHOSTAT_GUARD_GUARD_H
 
+#include "assembly/batch.h"
 #include "problem/problem.h"
 #include "problem/result_data.h"
 
@@ -50,10 +51,11 @@ typedef struct OstErrors {
     int asked;           /* is the residual asked for their reason, not rounding? */
 } OstErrors;
 
-/* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included). Of a mixed
- * form `problem` has the answer's pressure, and `of_error` that of the error; else they are the same. */
+/* Collective. The errors of a displacement, whose ost_problem_force is `internal`, that is off by `error` (both 3 ×
+ * node_count, ghosts included). Of a mixed form `problem` has the answer's pressure, and `of_error` that of the error;
+ * else they are the same. */
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                           const double *error, OstErrors *errors);
+                           const double *internal, const double *error, OstErrors *errors);
 
 /* The sizes that errors of an answer are relative to, and its errors where the solver could find them. */
 typedef struct OstSolvedFor {
@@ -67,9 +69,10 @@ typedef struct OstSolvedFor {
  * unless all of this is true: values are finite; the true residual is what was asked for; forces and moments balance;
  * if the problem is linear, strain energy equals work (Clapeyron); the stated error is at most a tenth, in the
  * displacement and in the fields asked for. checks.c says how errors are estimated. `requested` is the relative
- * residual that was asked for. */
+ * residual that was asked for. `also` is called, with the result, for the means of each batch of tets, which are found
+ * on the way; or NULL. */
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
-                          OstResult *result);
+                          OstMeansVisit also, OstResult *result);
 
 /* Collective, before anything is assembled. Finds the connected components of the body (tets joined through faces) and
  * the rigid motions that supports, and hinges between components, leave them. Raises OST_INVALID_INPUT that describes

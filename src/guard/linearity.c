@@ -2,6 +2,7 @@
 #include "guard/linearity.h"
 
 #include "core/error.h"
+#include "core/kernel.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/polar.h"
@@ -12,7 +13,7 @@
 
 /* Four vectors with the mean gradient of the displacement as their linear map, up to a factor: in the mean gradient of
  * a quadratic tet's shape functions only mid-edge nodes appear, each as the sum of its two ends'. */
-static void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
+static inline void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
 {
     if (nodes == 4) {
         memcpy(corners, u, 12 * sizeof *u);
@@ -25,7 +26,7 @@ static void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
                 corners[3 * ost_tet_edge[e][end] + i] += u[3 * (4 + e) + i];
 }
 
-static void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
+static inline void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
 {
     OstSimd corners[12];
     at_corners(nodes, vectors, corners);
@@ -35,7 +36,7 @@ static void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
 }
 
 /* The gradient is that of u's corners over x's: where u is linear it is right, in curved tets too. */
-static void find_gradient(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd gradient[9])
+static inline void find_gradient(const OstBatch *batch, int nodes, const OstSimd *u, OstSimd gradient[9])
 {
     OstSimd x[3][3], moved[3][3], inverse[3][3];
     find_edges(nodes, batch->x, x);
@@ -53,7 +54,7 @@ static void find_gradient(const OstBatch *batch, int nodes, const OstSimd *u, Os
 }
 
 /* Twice the vector of a matrix's antisymmetric part. */
-static void find_axis(const OstSimd matrix[9], int slot, double axis[3])
+static inline void find_axis(const OstSimd matrix[9], int slot, double axis[3])
 {
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
@@ -63,8 +64,8 @@ static void find_axis(const OstSimd matrix[9], int slot, double axis[3])
 }
 
 /* The angle by which each tet turns: half the curl by linear theory, that of R where rotations are large. */
-static void find_angles(const OstBatch *batch, int nodes, OstFormulation formulation, const OstSimd *u,
-                        double angle[OST_SIMD_WIDTH])
+OST_KERNEL static void find_angles(const OstBatch *batch, int nodes, OstFormulation formulation, const OstSimd *u,
+                                   double angle[OST_SIMD_WIDTH])
 {
     OstSimd gradient[9], rotation[9];
     OstPolar polar;

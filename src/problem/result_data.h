@@ -48,14 +48,15 @@ struct OstResult {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstMaterialField *field;
-    double t;                      /* factor of what grows with t */
-    OstFormulation formulation;    /* by which strain follows from the displacement */
-    double *displacement;          /* 3 × node_count */
-    double *pressure;              /* 4 × tet_count: of a mixed form, at the tets' vertices; else NULL */
-    OstMaterialField at_pressure;  /* with a pressure: the field that has it, which `field` then is */
-    double *force;                 /* 3 × owned_nodes: the loads; NULL unless reached */
-    double *reaction;              /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
-    double *strain, *stress;       /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
+    double t;                     /* factor of what grows with t */
+    OstFormulation formulation;   /* by which strain follows from the displacement */
+    double *displacement;         /* 3 × node_count */
+    double *pressure;             /* 4 × tet_count: of a mixed form, at the tets' vertices; else NULL */
+    OstMaterialField at_pressure; /* with a pressure: the field that has it, which `field` then is */
+    double *internal;        /* 3 × owned_nodes: forces of the tets, where the solve has left them to the checks */
+    double *force;           /* 3 × owned_nodes: the loads; NULL unless reached */
+    double *reaction;        /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
+    double *strain, *stress; /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */
     double *rotation;              /* 9 × owned_tets: of each tet's mean F, where rotations are large; or NULL */

@@ -48,21 +48,40 @@ static void write_means(void *data, const OstBatch *batch, const OstElement *ele
     }
 }
 
+/* Makes room for a field that is asked for. */
+static OstStatus make_room(OstResult *result, int is_asked, size_t numbers, double **values, int *is_new)
+{
+    if (!is_asked || *values)
+        return OST_SUCCESS;
+    *is_new = 1;
+    return OST_NEW(result->ctx, values, numbers * (size_t)result->mesh->owned_tets);
+}
+
+OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansVisit *visit)
+{
+    const unsigned needed = ost_output_fields_needed(fields);
+    const int turns = result->formulation != OST_FORMULATION_LINEAR && (needed & ALONG_AXES) != 0;
+    int is_new = 0;
+    *visit = NULL;
+    ost_ledger_enter(result->ctx, OST_EFFECT_RECOVERY);
+    OstStatus status = make_room(result, asks(needed, OST_FIELD_STRAIN), 6, &result->strain, &is_new);
+    OST_THEN(make_room(result, asks(needed, OST_FIELD_STRESS), 6, &result->stress, &is_new));
+    OST_THEN(make_room(result, asks(needed, OST_FIELD_ENERGY), 1, &result->strain_energy_density, &is_new));
+    if (is_new)
+        OST_THEN(make_room(result, turns, 9, &result->rotation, &is_new));
+    ost_ledger_leave(result->ctx);
+    if (is_new)
+        *visit = write_means;
+    return status;
+}
+
 static OstStatus recover_means(OstResult *result, unsigned fields)
 {
-    OstContext *ctx = result->ctx;
-    const size_t tets = (size_t)result->mesh->owned_tets;
-    if (asks(fields, OST_FIELD_STRAIN))
-        OST_TRY(OST_NEW(ctx, &result->strain, 6 * tets));
-    if (asks(fields, OST_FIELD_STRESS))
-        OST_TRY(OST_NEW(ctx, &result->stress, 6 * tets));
-    if (asks(fields, OST_FIELD_ENERGY))
-        OST_TRY(OST_NEW(ctx, &result->strain_energy_density, tets));
-    if (result->formulation != OST_FORMULATION_LINEAR && fields & ALONG_AXES)
-        OST_TRY(OST_NEW(ctx, &result->rotation, 9 * tets));
-    if (result->strain || result->stress || result->strain_energy_density)
-        ost_visit_means_of(result->mesh, result->field, result->formulation, result->t, result->displacement,
-                           write_means, result);
+    OstMeansVisit visit;
+    OST_TRY(ost_result_prepare_means(result, fields, &visit));
+    if (visit)
+        ost_visit_means_of(result->mesh, result->field, result->formulation, result->t, result->displacement, visit,
+                           result);
     return OST_SUCCESS;
 }
 

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_RECOVERY_RECOVERY_H
 #define ORTHOSTAT_RECOVERY_RECOVERY_H
 
+#include "assembly/batch.h"
 #include "fields/stress_measure.h"
 #include "problem/result_data.h"
 
@@ -12,6 +13,10 @@
  * of the undeformed body, and stress is Cauchy's, in world axes of the deformed one. Where load factors are asked for
  * and a material has strengths, finds the least ones. */
 OstStatus ost_result_recover(OstResult *result, unsigned fields);
+
+/* Local. Makes room for those of these fields that are means, unless they are there. *visit writes them, with the
+ * result as its data; NULL: nothing is to be written. What has been written ost_result_recover need not compute. */
+OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansVisit *visit);
 
 /* Local. Stress at the nodes of one tet, as it is in that tet: 6 numbers a node, world axes. */
 void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress);

@@ -69,10 +69,12 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
 {
     OstContext *ctx = analysis->ctx;
     OstProblem state = *analysis->problem; /* forces and energies of the answer: with its pressure, if it has one */
+    OstMeansVisit means;
     state.field = result->field;
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
     result->formulation = ost_problem_formulation(analysis->problem);
-    OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, result));
+    OST_TRY(ost_agree(ctx, ost_result_prepare_means(result, fields, &means)));
+    OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, means, result));
     if (analysis->problem->driven)
         OST_TRY(ost_distributing_react(analysis->problem, result));
     if (solved_for->errors.known) /* one error of the displacement is stated */

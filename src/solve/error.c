@@ -46,7 +46,8 @@ typedef struct Search {
     const OstSolved *solved;
     double *residual; /* of the rows */
     double *of_rows;  /* the error, of the rows */
-    double *error;    /* of all local nodes; first, the internal forces */
+    double *internal; /* forces */
+    double *error;    /* of all local nodes */
     double caution;   /* what is stated over what is measured; 1 until corrections show more */
 } Search;
 
@@ -56,11 +57,11 @@ static OstStatus find_residual(const Search *search)
     const OstProblem *problem = search->problem;
     double *load = NULL;
     OstStatus status = OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
-    OST_THEN(ost_problem_force(problem, 1.0, search->solved->displacement, search->error));
+    OST_THEN(ost_problem_force(problem, 1.0, search->solved->displacement, search->internal));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     ost_problem_load(problem, 1.0, NULL, load);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        load[i] -= search->error[i];
+        load[i] -= search->internal[i];
     status = ost_system_take_rows(problem->system, load, search->residual);
 done:
     OST_FREE(load);
@@ -87,7 +88,7 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
-    OST_TRY(ost_guard_errors(problem, problem, search->solved->displacement, search->error, errors));
+    OST_TRY(ost_guard_errors(problem, problem, search->solved->displacement, search->internal, search->error, errors));
     state(search, errors);
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,
@@ -279,6 +280,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     *errors = (OstErrors){0};
     OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);
     OST_THEN(OST_NEW(ctx, &search.error, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &search.internal, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY_DONE(ost_agree(ctx, status));
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));
@@ -295,6 +297,11 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
         errors->stress *= forces_caution;
     }
 done:
+    if (status == OST_SUCCESS && !problem->supports->spring) { /* whose forces are no tet's */
+        *solved->internal = search.internal;
+        search.internal = NULL;
+    }
+    OST_FREE(search.internal);
     OST_FREE(search.residual);
     OST_FREE(search.error);
     return status;

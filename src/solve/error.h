@@ -23,6 +23,7 @@ typedef struct OstSolved {
     double *displacement; /* 3 × node_count, ghosts included */
     double *pressure;     /* of a mixed form; pressures->count, ghosts included; and of the tets' vertices, which */
     double *of_tets;      /* the problem's field has */
+    double **internal; /* becomes the internal forces of the displacement, 3 × owned_nodes, where they were summed */
 } OstSolved;
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
                           OstErrors *errors);

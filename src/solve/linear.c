@@ -174,6 +174,7 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     const int before = goes_on ? result->solve.iterations : 0;
     const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
     MixedStop mixed = {.inner = stop, .analysis = analysis, .result = result};
+    OST_FREE(result->internal);
     if (stop && linear->volume) {
         mixed.stop = (OstErrorStop){.ask = ask_mixed, .data = &mixed, .first = stop->first, .relative = stop->relative};
         stop = &mixed.stop;
@@ -195,10 +196,11 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
 static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
 {
     const OstLinear *linear = analysis->work;
-    const OstSolved solved = {&result->solve,       linear->rhs,      linear->v,
-                              result->displacement, linear->pressure, result->pressure};
+    const OstSolved solved = {&result->solve,   linear->rhs,      linear->v,        result->displacement,
+                              linear->pressure, result->pressure, &result->internal};
     OstProblem state = *analysis->problem; /* with the pressure reached, if there is one */
     state.field = result->field;
+    OST_FREE(result->internal);
     if (linear->enclosed) { /* what the solver has estimated: nothing tells the mean pressure, so none of its error */
         const double error = result->solve.error_estimate;
         *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};

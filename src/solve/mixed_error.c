@@ -20,8 +20,8 @@ typedef struct Search {
     const OstProblem *problem; /* at the answer's pressure */
     OstSolver *solver;
     const OstSolved *solved;
-    double *load;                  /* 3 × owned_nodes */
-    double *force;                 /* of nodes: internal forces, then the error */
+    double *load, *internal;       /* forces, 3 × owned_nodes */
+    double *error;                 /* of nodes */
     double *r_u, *r_p, *e_u, *e_p; /* residuals and errors of the rows and pressures */
     double *of_tets;               /* the error of the pressures, of tets */
 } Search;
@@ -34,7 +34,8 @@ static OstStatus make_room(Search *search)
     OstStatus status = OST_NEW(ctx, &search->r_u, 2 * rows);
     OST_THEN(OST_NEW(ctx, &search->r_p, 2 * (size_t)problem->pressures->count));
     OST_THEN(OST_NEW(ctx, &search->load, 3 * (size_t)problem->mesh->owned_nodes));
-    OST_THEN(OST_NEW(ctx, &search->force, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &search->internal, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(OST_NEW(ctx, &search->error, 3 * (size_t)problem->mesh->node_count));
     OST_THEN(OST_NEW(ctx, &search->of_tets, 4 * (size_t)problem->mesh->tet_count));
     OST_TRY(ost_agree(ctx, status));
     search->e_u = search->r_u + rows;
@@ -47,7 +48,8 @@ static void release(Search *search)
     OST_FREE(search->r_u);
     OST_FREE(search->r_p);
     OST_FREE(search->load);
-    OST_FREE(search->force);
+    OST_FREE(search->internal);
+    OST_FREE(search->error);
     OST_FREE(search->of_tets);
 }
 
@@ -56,7 +58,7 @@ static OstStatus find_residuals(Search *search)
 {
     const OstProblem *problem = search->problem;
     const double *u = search->solved->displacement;
-    OstStatus status = ost_problem_force(problem, 1.0, u, search->force);
+    OstStatus status = ost_problem_force(problem, 1.0, u, search->internal);
     OST_THEN(ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR,
                                  ost_problem_eigen_share(problem, 1.0), u, search->r_p, NULL));
     OST_TRY(ost_agree(problem->ctx, status));
@@ -64,7 +66,7 @@ static OstStatus find_residuals(Search *search)
         search->r_p[i] = -search->r_p[i];
     ost_problem_load(problem, 1.0, NULL, search->load);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        search->load[i] -= search->force[i];
+        search->load[i] -= search->internal[i];
     return ost_system_take_rows(problem->system, search->load, search->r_u);
 }
 
@@ -84,10 +86,11 @@ static OstStatus measure(Search *search, double missing, OstErrors *errors)
     OST_TRY(ost_pressure_complete(problem->pressures, search->e_p));
     ost_pressure_of_tets(problem->pressures, search->e_p, search->of_tets);
     ost_problem_at_pressure(problem, search->of_tets, &field, &of_error);
-    OST_TRY(ost_problem_displacement(problem, 0.0, search->e_u, search->force));
+    OST_TRY(ost_problem_displacement(problem, 0.0, search->e_u, search->error));
     if (problem->free_body)
-        OST_TRY(ost_free_body_centre(problem->mesh, search->force));
-    OST_TRY(ost_guard_errors(problem, &of_error, search->solved->displacement, search->force, errors));
+        OST_TRY(ost_free_body_centre(problem->mesh, search->error));
+    OST_TRY(
+        ost_guard_errors(problem, &of_error, search->solved->displacement, search->internal, search->error, errors));
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,
         "solver: to %g, the error of both equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",
@@ -107,7 +110,7 @@ static void take_correction(const Search *search)
     for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
         solved->unknowns[i] += search->e_u[i];
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)
-        solved->displacement[i] += search->force[i];
+        solved->displacement[i] += search->error[i];
     for (size_t i = 0; i < (size_t)problem->pressures->count; i++)
         solved->pressure[i] += search->e_p[i];
     for (size_t i = 0; i < 4 * (size_t)problem->mesh->tet_count; i++)

@@ -44,6 +44,7 @@ void ost_result_destroy(OstResult **result)
         return;
     OST_FREE((*result)->displacement);
     OST_FREE((*result)->pressure);
+    OST_FREE((*result)->internal);
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
     OST_FREE((*result)->strain);

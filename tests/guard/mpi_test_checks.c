@@ -94,7 +94,7 @@ static void destroy(Solved *solved)
 static void check(Solved *solved)
 {
     solved->result.verdict.count = 0;
-    assert_success(ost_guard_after(solved->problem, requested, &solved->rhs, &solved->result));
+    assert_success(ost_guard_after(solved->problem, requested, &solved->rhs, NULL, &solved->result));
 }
 
 static int objects_to(const Solved *solved, const char *words)

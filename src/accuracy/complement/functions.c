@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/complement/complement.h"
+#include "core/kernel.h"
 #include "element/tets.h"
 
 static const int face_edge[3][2] = {{0, 1}, {1, 2}, {2, 0}};
@@ -38,8 +39,8 @@ static inline void find_coordinates(int nodes, const OstPoint *point, OstSimd gr
                 gradient[ost_tet10_ends[m][end]][i] += 0.5 * point->gradient[m][i];
 }
 
-void ost_complement_gradients(int nodes, const double at[4], const OstPoint *point,
-                              OstSimd gradient[OST_MAX_FUNCTIONS][3])
+OST_KERNEL void ost_complement_gradients(int nodes, const double at[4], const OstPoint *point,
+                                         OstSimd gradient[OST_MAX_FUNCTIONS][3])
 {
     OstSimd of[4][3];
     find_coordinates(nodes, point, of);

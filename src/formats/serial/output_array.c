@@ -59,10 +59,17 @@ static OstStatus raise_not_finite(OstContext *ctx, const char *path, const OstOu
 /* x - x is 0 for finite x only; a sum can be vectorised, a loop with an exit cannot. */
 static int all_finite(size_t count, const double *values)
 {
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++)
-        sum += fabs(values[i] - values[i]);
-    return sum == 0.0;
+    enum { SUMS = 8 }; /* side by side: one alone would wait for itself */
+    double sum[SUMS] = {0.0}, total = 0.0;
+    size_t i = 0;
+    for (; i + SUMS <= count; i += SUMS)
+        for (size_t k = 0; k < SUMS; k++)
+            sum[k] += fabs(values[i + k] - values[i + k]);
+    for (; i < count; i++)
+        total += fabs(values[i] - values[i]);
+    for (size_t k = 0; k < SUMS; k++)
+        total += sum[k];
+    return total == 0.0;
 }
 
 static OstStatus check_finite(const OstMesh *mesh, const char *path, const OstOutputArray *array)
