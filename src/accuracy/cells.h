@@ -13,6 +13,12 @@
 
 enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
 
+/* A point with the gradients of the functions. */
+typedef struct OstEvaluated {
+    OstPoint point;
+    OstSimd gradient[OST_MAX_FUNCTIONS][3];
+} OstEvaluated;
+
 /* A batch of tets with its functions. */
 typedef struct Cells {
     OstBatch batch;
@@ -23,7 +29,9 @@ typedef struct Cells {
     int straight;
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
-    const double *turned_by; /* as the operator's; then its displacements */
+    const OstEvaluated *evaluated;          /* at the rule's points; NULL: not kept */
+    OstSimd stretch[OST_MAX_POINTS + 1][6]; /* where axes are known by their line alone: elasticity.stretch_at */
+    const double *turned_by;                /* as the operator's; then its displacements */
     OstSimd base[NUMBERS];
 } Cells;
 
@@ -37,6 +45,7 @@ static inline void clear_cells(const OstOperator *operator, int exactly, double 
     cells->rule = cells->nodes == 4 ? &ost_tet_degree2 : &ost_tet_degree5;
     cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
     cells->state = exactly;
+    cells->evaluated = NULL;
     ost_elasticity_clear(&cells->batch.elasticity);
     cells->batch.elasticity.stretch_suffices = cells->nodes == 4 && !exactly && !operator->turned_by;
     cells->batch.elasticity.eigen_share = eigen_share;
@@ -79,7 +88,12 @@ static inline void gather(const OstOperator *operator, OstLocal first, OstLocal 
     if (field->region_formula && cells->points > 0 && !(batch->elasticity.about_line && field->region_count == 1))
         find_places(cells, places);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
-    if (batch->elasticity.about_line && batch->elasticity.points == 1)
+    const int is_about_line = batch->elasticity.about_line;
+    batch->elasticity.stretch_at =
+        is_about_line && (cells->nodes == 10 || batch->elasticity.points > 1) ? cells->stretch : NULL;
+    if (batch->elasticity.stretch_at)
+        ost_straight_stretches(cells->nodes, batch->x, &batch->elasticity, cells->rule, cells->stretch);
+    else if (is_about_line)
         ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
 }
 

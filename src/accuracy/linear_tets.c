@@ -106,12 +106,12 @@ static inline void forces_of_uniform(const Linear *tet, const OstElasticity *ela
             at_functions[3 * e + i] = at_nodes[3 * ost_tet_edge[e][0] + i] + at_nodes[3 * ost_tet_edge[e][1] + i];
 }
 
-/* The stress of A about a line at a place, by its fourfold; `slope` is D. */
-static inline void find_stress_about_line(const OstElasticity *elasticity, const OstSimd fourfold[3],
-                                          const OstSimd slope[9], OstSimd stress[6])
+/* The stress of A at a point, where it differs about a line; `slope` is D. */
+static inline void find_stress_about_line(const OstElasticity *elasticity, int q, const OstSimd slope[9],
+                                          OstSimd stress[6])
 {
-    OstSimd a[6], along[9];
-    ost_stretch_at(elasticity, fourfold, a);
+    const OstSimd *a = elasticity->stretch_at[q];
+    OstSimd along[9];
     for (int i = 0; i < 3; i++) {
         const OstSimd *d = slope + 3 * i;
         along[3 * i] = d[0] * a[0] + d[1] * a[3] + d[2] * a[5];
@@ -121,32 +121,23 @@ static inline void find_stress_about_line(const OstElasticity *elasticity, const
     find_stretch_stress(a, elasticity->shear, along, stress);
 }
 
-/* At a point of the rule; x: the corners. */
-static inline void find_stress_at(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, int q,
-                                  const OstSimd slope[9], OstSimd stress[6])
+/* At a point of the rule. */
+static inline void find_stress_at(const OstElasticity *elasticity, int q, const OstSimd slope[9], OstSimd stress[6])
 {
-    OstSimd fourfold[3];
-    if (!elasticity->about_line) {
+    if (elasticity->about_line)
+        find_stress_about_line(elasticity, q, slope, stress);
+    else
         find_stress(elasticity, q, slope, stress);
-        return;
-    }
-    for (int i = 0; i < 3; i++) {
-        fourfold[i] = 4.0 * rule->point[q].at[0] * x[i];
-        for (int v = 1; v < VERTICES; v++)
-            fourfold[i] += 4.0 * rule->point[q].at[v] * x[3 * v + i];
-    }
-    find_stress_about_line(elasticity, fourfold, slope, stress);
 }
 
 /* The stress times each coordinate is all that the functions need of it. */
-static inline void forces_of_varying(const OstSimd *x, const Linear *tet, const OstElasticity *elasticity,
-                                     const OstQuadrature *rule, const OstSimd slope[9], OstSimd *at_nodes,
-                                     OstSimd *at_functions)
+static inline void forces_of_varying(const Linear *tet, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                     const OstSimd slope[9], OstSimd *at_nodes, OstSimd *at_functions)
 {
     OstSimd moment[VERTICES][6] = {{{0}}}, sum[6];
     for (int q = 0; q < rule->count; q++) {
         OstSimd stress[6];
-        find_stress_at(x, elasticity, rule, q, slope, stress);
+        find_stress_at(elasticity, q, slope, stress);
         for (int v = 0; v < VERTICES; v++)
             for (int p = 0; p < 6; p++)
                 moment[v][p] += rule->point[q].weight * rule->point[q].at[v] * tet->volume * stress[p];
@@ -177,18 +168,17 @@ OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *el
     if (elasticity->points == 1)
         forces_of_uniform(&tet, elasticity, slope, at_nodes, at_functions);
     else
-        forces_of_varying(x, &tet, elasticity, rule, slope, at_nodes, at_functions);
+        forces_of_varying(&tet, elasticity, rule, slope, at_nodes, at_functions);
 }
 
-OST_KERNEL void ost_linear_tets_own_forces(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
-                                           OstSimd *at_nodes)
+OST_KERNEL void ost_linear_tets_own_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                           const OstSimd *u, OstSimd *at_nodes)
 {
-    const OstSimd fourfold[3] = {x[0] + x[3] + x[6] + x[9], x[1] + x[4] + x[7] + x[10], x[2] + x[5] + x[8] + x[11]};
     OstSimd slope[9], stress[6];
     Linear tet;
     open(x, elasticity, &tet);
     find_slope(&tet, u, slope);
-    find_stress_about_line(elasticity, fourfold, slope, stress);
+    find_stress_about_line(elasticity, rule->count, slope, stress);
     for (int p = 0; p < 6; p++)
         stress[p] *= tet.volume;
     find_own_forces(&tet, stress, at_nodes);

@@ -135,7 +135,7 @@ static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const d
 {
     const OstMesh *mesh = complement->mesh;
     const int n = mesh->nodes_per_tet;
-    double x[3 * OST_MAX_TET_NODES], shape[OST_MAX_TET_NODES], gradients[3 * OST_MAX_TET_NODES];
+    double x[3 * OST_MAX_TET_NODES], shape[OST_MAX_TET_NODES];
     if (!exact && is_straight(mesh, ost_mesh_nodes_of(mesh, tet))) {
         load_tet_evenly(complement, tet, vector, force);
         return OST_SUCCESS;
@@ -144,7 +144,7 @@ static OstStatus load_tet(const OstComplement *complement, OstLocal tet, const d
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
         double values[OST_MAX_FUNCTIONS], place[3], density[3] = {vector[0], vector[1], vector[2]};
-        const double weight = point->weight * ost_shape_gradients(n, point->at, x, gradients) / 6.0;
+        const double weight = point->weight * ost_shape_determinant(n, point->at, x) / 6.0;
         if (exact) {
             ost_shape_values(n, point->at, shape);
             ost_shape_place(n, shape, x, place);

@@ -53,13 +53,12 @@ static inline void find_stress(const Cells *cells, OstFormulation formulation, i
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     const OstElasticity *elasticity = &cells->batch.elasticity;
     const int at = ost_elasticity_at(elasticity, q);
-    OstSimd elastic[6], stress[6], tensor[6];
+    OstSimd elastic[6], stress[6];
     OstPolar polar;
     find_strain(cells, formulation, q, slope, &polar, elastic);
-    if (is_about_line(cells)) {
-        ost_straight_stretch(cells->batch.x, elasticity, cells->rule->point[q].at, tensor);
-        ost_stretch_stress(tensor, elasticity->shear, elastic, stress);
-    } else if (elasticity->by_stretch)
+    if (is_about_line(cells))
+        ost_stretch_stress(elasticity->stretch_at[q], elasticity->shear, elastic, stress);
+    else if (elasticity->by_stretch)
         ost_stretch_stress(elasticity->stretch_tensor, elasticity->shear, elastic, stress);
     else
         ost_simd_stress(elasticity->c[at], elastic, stress);
@@ -93,8 +92,8 @@ static inline void add_slope(const OstSimd *u, const OstSimd gradient[3], OstSim
 }
 
 /* The displacement gradient at a point; w may be NULL. */
-static inline void find_slope(const Cells *cells, const OstPoint *point, OstSimd gradient[OST_MAX_FUNCTIONS][3],
-                              const OstSimd *u, const OstSimd *w, OstSimd slope[9])
+static inline void find_slope(const Cells *cells, const OstPoint *point, const OstSimd (*gradient)[3], const OstSimd *u,
+                              const OstSimd *w, OstSimd slope[9])
 {
     ost_displacement_gradient(cells->nodes, point, u, slope);
     for (int k = 0; k < cells->functions && w; k++)
@@ -167,21 +166,23 @@ OST_KERNEL static void forces_of(const Cells *cells, const OstElement *element, 
     if (cells->batch.elasticity.by_mean)
         find_mean(cells, element, formulation, u, w, &mean);
     for (int q = 0; q < cells->rule->count; q++) {
-        OstSimd gradient[OST_MAX_FUNCTIONS][3], slope[9], piola[9], rotation[9];
-        OstPoint point;
-        evaluate(cells, element, q, &point, gradient);
-        find_slope(cells, &point, gradient, u, w, slope);
+        OstSimd slope[9], piola[9], rotation[9];
+        OstEvaluated here;
+        if (!cells->evaluated)
+            evaluate(cells, element, q, &here.point, here.gradient);
+        const OstEvaluated *at = cells->evaluated ? &cells->evaluated[q] : &here;
+        find_slope(cells, &at->point, at->gradient, u, w, slope);
         if (cells->turned_by) {
-            find_rotation(cells, &point, rotation);
+            find_rotation(cells, &at->point, rotation);
             turn_back(rotation, slope);
         }
-        find_stress(cells, formulation, q, slope, &mean, &point.volume, piola);
+        find_stress(cells, formulation, q, slope, &mean, &at->point.volume, piola);
         if (cells->turned_by)
             turn(rotation, piola);
         for (int a = 0; a < cells->nodes; a++)
-            add_along(piola, point.gradient[a], at_nodes + 3 * a);
+            add_along(piola, at->point.gradient[a], at_nodes + 3 * a);
         for (int k = 0; k < cells->functions; k++)
-            add_along(piola, gradient[k], at_functions + 3 * k);
+            add_along(piola, at->gradient[k], at_functions + 3 * k);
     }
 }
 
@@ -237,7 +238,7 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
 static void add_own_about_line(const OstOperator *operator, const Cells * cells, const OstSimd *moved, double *force)
 {
     OstSimd at_nodes[NUMBERS];
-    ost_linear_tets_own_forces(cells->batch.x, &cells->batch.elasticity, moved, at_nodes);
+    ost_linear_tets_own_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, moved, at_nodes);
     add_to_nodes(&cells->batch, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
 }
 
@@ -266,10 +267,18 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
         at_nodes[n] = -at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing && cells->nodes == 4 && cells->batch.elasticity.about_line)
+    if (sum->missing && cells->nodes == 4 && cells->batch.elasticity.stretch_at)
         add_own_about_line(sum->operator, cells, moved, sum->force);
     else if (sum->missing)
         add_own(sum->operator, cells, element, sum->u, sum->force);
+}
+
+/* Keeps the points of curved tets, which all displacements of a visit share. */
+static void keep_points(const OstElement *element, OstEvaluated at[OST_MAX_POINTS], Cells *cells)
+{
+    cells->evaluated = cells->straight ? NULL : at;
+    for (int q = 0; q < cells->rule->count && !cells->straight; q++)
+        evaluate(cells, element, q, &at[q].point, at[q].gradient);
 }
 
 /* OstServe: of one complement and eigenstrain. */
@@ -278,6 +287,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     const Sum *one = sum[0];
     const OstMesh *mesh = one->operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstEvaluated at[OST_MAX_POINTS];
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
@@ -285,6 +295,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
         one->formulation == OST_FORMULATION_LINEAR && !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
+        keep_points(element, at, &cells);
         for (int k = 0; k < count; k++)
             add_state(&cells, element, sum[k]);
     }
@@ -463,12 +474,11 @@ static void add_blocks_about_line(const Cells *cells, const OstElement *element,
     const OstElasticity *elasticity = &cells->batch.elasticity;
     memset(block, 0, OST_MAX_FUNCTIONS * sizeof *block);
     for (int q = 0; q < cells->rule->count; q++) {
-        OstSimd gradient[OST_MAX_FUNCTIONS][3], tensor[6];
+        OstSimd gradient[OST_MAX_FUNCTIONS][3];
         OstPoint point;
         evaluate(cells, element, q, &point, gradient);
-        ost_straight_stretch(cells->batch.x, elasticity, cells->rule->point[q].at, tensor);
         for (int k = 0; k < cells->functions; k++)
-            add_stretch_block(tensor, elasticity->shear, &point.volume, gradient[k], block[k]);
+            add_stretch_block(elasticity->stretch_at[q], elasticity->shear, &point.volume, gradient[k], block[k]);
     }
 }
 

@@ -132,15 +132,29 @@ static inline void integrate(const Straight *tet, const OstSimd *c, OstSimd stra
     }
 }
 
-void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6])
+static inline void find_stretch(int nodes, const OstSimd *x, const OstElasticity *elasticity, const double at[4],
+                                OstSimd tensor[6])
 {
     double shape[OST_MAX_TET_NODES];
     OstSimd fourfold[3] = {{0}};
-    ost_shape_values(VERTICES + EDGES, at, shape);
-    for (int a = 0; a < VERTICES + EDGES; a++)
+    ost_shape_values(nodes, at, shape);
+    for (int a = 0; a < nodes; a++)
         for (int i = 0; i < 3; i++)
             fourfold[i] += 4.0 * shape[a] * x[3 * a + i];
     ost_stretch_at(elasticity, fourfold, tensor);
+}
+
+void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6])
+{
+    find_stretch(VERTICES + EDGES, x, elasticity, at, tensor);
+}
+
+OST_KERNEL void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity,
+                                       const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS + 1][6])
+{
+    for (int q = 0; q < rule->count; q++)
+        find_stretch(nodes, x, elasticity, rule->point[q].at, tensor[q]);
+    find_stretch(nodes, x, elasticity, ost_tet_degree1.point[0].at, tensor[rule->count]);
 }
 
 /* Of C at point q. */
@@ -152,8 +166,9 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
         ost_simd_stress(elasticity->c[q], strain, stress);
         return;
     }
-    ost_straight_stretch(x, elasticity, rule->point[q].at, tensor);
-    ost_stretch_stress(tensor, elasticity->shear, strain, stress);
+    if (!elasticity->stretch_at)
+        ost_straight_stretch(x, elasticity, rule->point[q].at, tensor);
+    ost_stretch_stress(elasticity->stretch_at ? elasticity->stretch_at[q] : tensor, elasticity->shear, strain, stress);
 }
 
 /* The same by quadrature, of a C that varies. */

@@ -42,6 +42,9 @@ typedef struct OstElasticity {
     OstSimd origin[3], axis[3];    /* four times a point of the cylinder's axis; its direction */
     OstSimd about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the position's offset from the axis */
 
+    /* If about_line: A at the points of a rule, and behind them at the centroid, where the caller keeps it; or NULL */
+    const OstSimd (*stretch_at)[6];
+
     OstSimd c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstSimd m[OST_MAX_POINTS][6]; /* 0 for the tets that are not split; not set if by_mean and mixed are 0 */
 
@@ -63,6 +66,7 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->line_suffices = 0;
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
+    elasticity->stretch_at = NULL;
     elasticity->examined = -1;
     elasticity->eigen_share = 0.0;
     elasticity->eigenstrained = 0;

@@ -63,16 +63,30 @@ void ost_shape_place(int nodes, const double *values, const double *x, double pl
     }
 }
 
-double ost_shape_gradients(int nodes, const double at[4], const double *x, double *gradients)
+/* dx_i / dxi_j, with xi_j the coordinate of vertex j + 1 */
+static void find_map(int nodes, double derivatives[OST_MAX_TET_NODES][4], const double *x, double map[9])
 {
-    double derivatives[OST_MAX_TET_NODES][4];
-    double map[9] = {0.0}; /* dx_i / dxi_j, with xi_j the coordinate of vertex j + 1 */
-    double inverse[9] = {0.0};
-    derive(nodes, at, derivatives);
+    memset(map, 0, 9 * sizeof *map);
     for (int a = 0; a < nodes; a++)
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 map[3 * i + j] += x[3 * a + i] * (derivatives[a][j + 1] - derivatives[a][0]);
+}
+
+double ost_shape_determinant(int nodes, const double at[4], const double *x)
+{
+    double derivatives[OST_MAX_TET_NODES][4], map[9];
+    derive(nodes, at, derivatives);
+    find_map(nodes, derivatives, x, map);
+    return ost_determinant3(map);
+}
+
+double ost_shape_gradients(int nodes, const double at[4], const double *x, double *gradients)
+{
+    double derivatives[OST_MAX_TET_NODES][4], map[9];
+    double inverse[9] = {0.0};
+    derive(nodes, at, derivatives);
+    find_map(nodes, derivatives, x, map);
     const double determinant = ost_invert3(map, inverse);
     for (int a = 0; a < nodes; a++) {
         const double by_xi[3] = {derivatives[a][1] - derivatives[a][0], derivatives[a][2] - derivatives[a][0],

@@ -13,6 +13,9 @@ void ost_shape_place(int nodes, const double *values, const double *x, double pl
  * reference tet: six times the volume of a straight tet, positive if it is not inverted. */
 double ost_shape_gradients(int nodes, const double at[4], const double *x, double *gradients);
 
+/* Local. That determinant alone. */
+double ost_shape_determinant(int nodes, const double at[4], const double *x);
+
 /* Local. Of a face: derivatives of the shape functions by the coordinates of the face's second and third vertex. */
 void ost_shape_face_slopes(int nodes, const double at[3], double (*slopes)[2]);
 

@@ -194,8 +194,9 @@ static inline void tet4_strain(const OstSimd *x, const OstSimd *u, OstSimd strai
     scaled_gradients(x, gradient, &factor);
     determinant_of(x, gradient, determinant);
     scaled_strain(gradient, u, strain);
+    const OstSimd inverse = 1.0 / *determinant;
     for (int p = 0; p < 6; p++)
-        strain[p] /= *determinant;
+        strain[p] *= inverse;
 }
 
 OST_KERNEL static void tet4_means(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means)

@@ -180,6 +180,7 @@ static void add_node(OstResult *result, const Body *body, const LinkForces *link
 typedef struct TetSums {
     OstResult *result;
     OstMeansVisit also;
+    int is_judged; /* are the largest known? */
     OstFormulation formulation;
     double energy, eigen;
     OstLinearity largest;
@@ -191,7 +192,8 @@ static void add_tets(void *data, const OstBatch *batch, const OstElement *elemen
     TetSums *tets = data;
     if (tets->also)
         tets->also(tets->result, batch, element, u, means);
-    ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
+    if (!tets->is_judged)
+        ost_linearity_add(batch, element, tets->formulation, u, means, &tets->largest);
     for (int slot = 0; slot < batch->count; slot++) {
         tets->energy += means->energy[slot] * means->volume[slot];
         tets->eigen += means->eigen[slot] * means->volume[slot];
@@ -466,6 +468,10 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstVolumeError volume;
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.result = result, .also = also, .formulation = problem->formulation};
+    if (is_summed && result->newton.judged) { /* of this displacement too, and not of all on a path */
+        tets.is_judged = 1;
+        tets.largest = (OstLinearity){result->newton.linear_strain, result->newton.linear_rotation};
+    }
     LinkForces links = {.links = problem->supports->links};
     /* What double precision attained, or the error of the answer made do with. */
     if (result->solve.rounding_limited || result->solve.stopped)

@@ -43,13 +43,13 @@ static inline void find_gradient(const OstBatch *batch, int nodes, const OstSimd
     find_edges(nodes, u, moved);
     for (int k = 0; k < 3; k++)
         ost_simd_cross(x[(k + 1) % 3], x[(k + 2) % 3], inverse[k]);
-    const OstSimd determinant = x[0][0] * inverse[0][0] + x[0][1] * inverse[0][1] + x[0][2] * inverse[0][2];
+    const OstSimd over = 1.0 / (x[0][0] * inverse[0][0] + x[0][1] * inverse[0][1] + x[0][2] * inverse[0][2]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             gradient[3 * i + j] = (OstSimd){0};
             for (int k = 0; k < 3; k++)
                 gradient[3 * i + j] += moved[k][i] * inverse[k][j];
-            gradient[3 * i + j] /= determinant;
+            gradient[3 * i + j] *= over;
         }
 }
 

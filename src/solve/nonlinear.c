@@ -94,6 +94,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstLinear *linear = analysis->work;
     OstNewton *newton = NULL;
     OstNewtonState state = {0};
+    OST_FREE(result->internal); /* by linear theory */
     ost_problem_take_formulation(problem, problem->beyond_linear);
     OST_TRY(unfold(problem));
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
