@@ -115,6 +115,13 @@ with h5py.File(os.path.join(folder, "beam.vtkhdf"), "r") as file:
     check(list(file["VTKHDF/FieldData/refused"]) == [1, 1, 0, 1], list(file["VTKHDF/FieldData/refused"]))
     check(file["Orthostat/Objections"][0].startswith(b"weight: "), list(file["Orthostat/Objections"]))
 
+# a load on what the mesh has not: the others are solved all the same, and the message is that case's alone
+folder = folder_with(CASE.replace("on: {boundary: xmax}, total_force: [0, 0.01, 0]", "on: {boundary: east}, total_force: [0, 0.01, 0]"))
+finished = run("solve", "beam.yaml", "--json", "beam.json", "-q", folder=folder)
+check(finished.exit_code == 2 and finished.errors.count("there is no boundary 'east'") == 1
+      and "1 of 4 load cases has no answer" in finished.errors and "\n  push: " in finished.errors, finished.errors)
+check([one["accepted"] for one in load(folder, "beam.json")["cases"]] == [True, True, False, True], finished.errors)
+
 # --- check, and what is refused ---
 folder = folder_with(CASE)
 sound = run("check", "beam.yaml", folder=folder)

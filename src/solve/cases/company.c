@@ -11,6 +11,7 @@
 #include "solve/linear.h"
 
 #include <math.h>
+#include <string.h>
 
 /* One more takes so much of what the body takes by itself, at the most; so much of the free memory may be used. */
 static const double share_of_each = 0.6, share_of_free = 0.5;
@@ -101,13 +102,20 @@ static void solve(void *data, int number)
 OstStatus ost_company_solve(OstAnalysis *analysis, int count, OstCompanion *companion)
 {
     Member *member = NULL;
+    int joined = 0;
     OstStatus status = ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &member, count));
     for (int k = 0; k < count && status == OST_SUCCESS; k++) {
-        member[k].companion = &companion[k];
-        status = join(analysis, &member[k]);
+        member[joined].companion = &companion[k];
+        if (join(analysis, &member[joined]) == OST_SUCCESS)
+            joined++;
+        else { /* its own turn will tell why */
+            release(&member[joined]);
+            memset(&member[joined], 0, sizeof *member);
+        }
     }
-    OST_THEN(ost_together_run(analysis->ctx, count, solve, member));
-    for (int k = 0; member && k < count; k++)
+    if (joined > 0)
+        OST_THEN(ost_together_run(analysis->ctx, joined, solve, member));
+    for (int k = 0; k < joined; k++)
         release(&member[k]);
     OST_FREE(member);
     return status;
