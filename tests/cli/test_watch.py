@@ -147,6 +147,23 @@ watch:
           f"the elastica: {watched}")
 
 
+def means_are_by_the_true_volume_of_curved_tets():
+    """Of a quarter tube under inner pressure p, u = (x, 0, 0) as virtual displacement gives the mean of the stress xx,
+    exactly and on any mesh: p times the hole's area over the body's."""
+    _, report, _ = solve("""mesh: {sector: {axis: z, length: 1, radii: [1, 2], angle: 90, divisions: {around: 1, radial: 1, axial: 1}}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints:
+  - {on: {boundary: start}, slide: [1, 0, 0]}
+  - {on: {boundary: finish}, slide: [0, 1, 0]}
+  - {on: {boundary: bottom}, slide: [0, 0, 1]}
+loads: [{on: {boundary: inner}, pressure: 3}]
+accuracy: {relative_residual: 1e-12, out_of_reach: accept}
+watch: {mean: {stress: {region: all}, component: xx}}
+""")
+    check(near(report["watched"]["mean"]["value"], 1.0), f"the mean stress is not 1: {report['watched']}")
+
+
 def nothing_watched_is_nothing_in_json():
     _, report, _ = solve(CASE[:CASE.index("watch:")])
     check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
@@ -183,6 +200,7 @@ def main():
     reactions_balance_the_loads()
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()
+    means_are_by_the_true_volume_of_curved_tets()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
             ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])
