@@ -105,6 +105,14 @@ solver: {method: metric}
     stopped = [entry["solver"]["stopped"] for entry in report["cases"]]
     check(stopped == [True, True, True], f"which load cases stop early: {stopped}")
     check(abs(report["cases"][1]["watched"]["weight"]["value"] - 160) < 1e-5, f"weight: {report['cases'][1]['watched']}")
+    _, report, _ = solve(heavy.replace("constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]",
+                                       "springs: [{on: {boundary: xmin}, foundation: 1e7}]") + f"watch: {weight}\n")
+    check(report["solver"]["stopped"], "the body on springs does not stop early")
+    check(abs(report["watched"]["weight"]["value"] - 160) < 1e-5, f"weight on springs: {report['watched']}")
+    edge = heavy + "watch: {edge: {reaction: {boundary: zmax}, component: x}}\n" # most of that boundary is free
+    early, late = solve(edge)[1], solve(edge + "accuracy: {algebraic_fraction: 0}\n")[1]
+    early, late = early["watched"]["edge"]["value"], late["watched"]["edge"]["value"]
+    check(abs(early - late) < 2e-5 * abs(late), f"an edge's reaction: {early}, to the residual {late}")
 
 
 def pressure_follows_no_surface_by_linear_theory():
