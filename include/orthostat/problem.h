@@ -88,7 +88,7 @@ OstGlobal ost_problem_unknowns(const OstProblem *problem); /* 0 until the stiffn
 void ost_problem_set_load(OstProblem *problem, const double *force);
 
 /* Local. load(t, u): t times the load that grows with t, and what follows time tables; and the pressures that follow
- * the surface as u moves it (NULL: as it is undeformed, which is what linear theory takes). */
+ * the surface as u moves it (NULL, or by linear theory: as it is undeformed). */
 void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force);
 
 /* Collective. A work function of the load: its gradient by u is load(t, u), and it is 0 at u = 0. Where a pressure

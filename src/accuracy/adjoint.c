@@ -50,7 +50,8 @@ static OstStatus move_large(const Search *search, double t, const double *u, con
     return ost_agree(problem->ctx, status);
 }
 
-/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. */
+/* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. The motion
+ * strains the body and no spring, whose forces are reactions. */
 static OstStatus adjoint_load(Search *search, const OstInterest *interest, double t, const double *u)
 {
     OstSteps *steps = &search->steps;
@@ -63,13 +64,13 @@ static OstStatus adjoint_load(Search *search, const OstInterest *interest, doubl
         OST_TRY(move_large(search, t, u, interest->moved));
         for (size_t i = 0; i < numbers && interest->load; i++)
             steps->force[i] += interest->load[i];
+        if (problem->supports->spring)
+            ost_spring_force(problem->supports, -1.0, interest->moved, steps->force);
     } else {
         memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
         ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
         for (size_t i = 0; i < numbers; i++)
             steps->force[i] *= -stiffness->unit;
-        if (problem->supports->spring)
-            ost_spring_force(problem->supports, 1.0, interest->moved, steps->force);
     }
     return ost_steps_take_rows(steps, steps->q.rows);
 }

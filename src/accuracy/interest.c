@@ -54,7 +54,20 @@ static void find_arm(const OstProblem *problem, const OstWatch *watch, const dou
     }
 }
 
-/* The whole reaction of the nodes, or its moment: the internal force there, less the load. */
+/* Of what is out of balance at a node, what supports take, with the force of its spring. Nodes that follow others, and
+ * those that they follow, are solved for to the residual. */
+static void keep_reaction(const OstSupports *supports, const double *u, OstLocal node, double force[3])
+{
+    double projector[9], free_force[3], of_spring[3] = {0.0};
+    ost_supports_get(supports, node, projector, NULL);
+    ost_apply3(projector, force, free_force);
+    if (supports->spring)
+        ost_apply3(supports->spring + 9 * (size_t)node, u + 3 * (size_t)node, of_spring);
+    for (int i = 0; i < 3; i++)
+        force[i] -= (supports->links ? 0.0 : free_force[i]) + of_spring[i];
+}
+
+/* The whole reaction of the nodes, or its moment. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                                OstLocal count, const OstLocal *nodes, double *forces, double sum[3])
 {
@@ -73,6 +86,7 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
         find_arm(problem, watch, u, nodes[n], arm);
         for (size_t i = 0; i < 3; i++)
             of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
+        keep_reaction(problem->supports, u, nodes[n], of_node);
         ost_cross3(arm, of_node, moment);
         if (forces)
             memcpy(forces + 3 * (size_t)nodes[n], of_node, sizeof of_node);

@@ -291,9 +291,10 @@ void ost_problem_set_load(OstProblem *problem, const double *force)
 
 void ost_problem_load(const OstProblem *problem, double t, const double *u, double *force)
 {
+    const double *shape = ost_problem_is_linear(problem) ? NULL : u;
     memset(force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
     for (int k = 0; k < ost_problem_functions(problem); k++)
-        ost_problem_add_load(problem, k, ost_problem_factor(problem, k, t), u, force);
+        ost_problem_add_load(problem, k, ost_problem_factor(problem, k, t), shape, force);
 }
 
 OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work)

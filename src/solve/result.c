@@ -74,7 +74,7 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
     if (status == OST_SUCCESS)
-        ost_problem_load(problem, t, ost_problem_is_linear(problem) ? NULL : result->displacement, result->force);
+        ost_problem_load(problem, t, result->displacement, result->force);
     result->t = ost_problem_eigen_share(problem, t);
     return ost_agree(ctx, status);
 }

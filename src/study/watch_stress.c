@@ -52,6 +52,15 @@ static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstL
     return OST_SUCCESS;
 }
 
+static double volume_of(const OstMesh *mesh, OstLocal tet)
+{
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    double x[3 * OST_MAX_TET_NODES];
+    for (int a = 0; a < mesh->nodes_per_tet; a++)
+        memcpy(x + 3 * a, mesh->coordinates + 3 * (size_t)nodes[a], 3 * sizeof *x);
+    return fabs(ost_element_of(mesh->nodes_per_tet)->volume(x));
+}
+
 static OstStatus go_over(const OstResult *result, const OstWatch *watch, double sign, Over *over)
 {
     const OstMesh *mesh = result->mesh;
@@ -61,7 +70,7 @@ static OstStatus go_over(const OstResult *result, const OstWatch *watch, double 
             continue;
         OST_TRY(value_of(result, watch, tet, &value));
         OST_TRY(surplus_of(result, watch, tet, value, &more));
-        const double volume = fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
+        const double volume = volume_of(mesh, tet);
         over->sum += volume * value;
         over->more += volume * more;
         over->volume += volume;

@@ -105,6 +105,23 @@ solver: {method: metric}
     stopped = [entry["solver"]["stopped"] for entry in report["cases"]]
     check(stopped == [True, True, True], f"which load cases stop early: {stopped}")
     check(abs(report["cases"][1]["watched"]["weight"]["value"] - 160) < 1e-5, f"weight: {report['cases'][1]['watched']}")
+    _, report, _ = solve(heavy.replace("constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]",
+                                       "springs: [{on: {boundary: xmin}, foundation: 1e7}]") + f"watch: {weight}\n")
+    check(report["solver"]["stopped"], "the body on springs does not stop early")
+    check(abs(report["watched"]["weight"]["value"] - 160) < 1e-5, f"weight on springs: {report['watched']}")
+    edge = heavy + "watch: {edge: {reaction: {boundary: zmax}, component: x}}\n" # most of that boundary is free
+    early, late = solve(edge)[1], solve(edge + "accuracy: {algebraic_fraction: 0}\n")[1]
+    early, late = early["watched"]["edge"]["value"], late["watched"]["edge"]["value"]
+    check(abs(early - late) < 2e-5 * abs(late), f"an edge's reaction: {early}, to the residual {late}")
+
+
+def pressure_follows_no_surface_by_linear_theory():
+    """A pull of 2 by a pressure that follows: a strain of 10 % would change the area, and the reaction, by 6 %."""
+    pulled = (CASE.replace("total_force: [2, 0, 0]", "pressure: -2, follows: true")
+              .replace("youngs_modulus: 1000", "youngs_modulus: 20").replace("slide: [1, 0, 0]", "displacement: [0, 0, 0]"))
+    _, report, _ = solve(pulled + "large_rotation: off\n")
+    check(near(report["watched"]["held"]["value"], -2), f"the reaction is not that of linear theory: {report['watched']}")
+    check(near(report["watched"]["held"]["value"], report["checks"]["reaction"][0]), f"two reactions: {report}")
 
 
 def reactions_of_a_nearly_incompressible_body_balance_its_loads():
@@ -147,6 +164,23 @@ watch:
           f"the elastica: {watched}")
 
 
+def means_are_by_the_true_volume_of_curved_tets():
+    """Of a quarter tube under inner pressure p, u = (x, 0, 0) as virtual displacement gives the mean of the stress xx,
+    exactly and on any mesh: p times the hole's area over the body's."""
+    _, report, _ = solve("""mesh: {sector: {axis: z, length: 1, radii: [1, 2], angle: 90, divisions: {around: 1, radial: 1, axial: 1}}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints:
+  - {on: {boundary: start}, slide: [1, 0, 0]}
+  - {on: {boundary: finish}, slide: [0, 1, 0]}
+  - {on: {boundary: bottom}, slide: [0, 0, 1]}
+loads: [{on: {boundary: inner}, pressure: 3}]
+accuracy: {relative_residual: 1e-12, out_of_reach: accept}
+watch: {mean: {stress: {region: all}, component: xx}}
+""")
+    check(near(report["watched"]["mean"]["value"], 1.0), f"the mean stress is not 1: {report['watched']}")
+
+
 def nothing_watched_is_nothing_in_json():
     _, report, _ = solve(CASE[:CASE.index("watch:")])
     check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
@@ -181,8 +215,10 @@ def main():
     errors_are_stated()
     what_has_no_error_is_told_in_words()
     reactions_balance_the_loads()
+    pressure_follows_no_surface_by_linear_theory()
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()
+    means_are_by_the_true_volume_of_curved_tets()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
             ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])

@@ -25,15 +25,17 @@ typedef struct Face {
 struct OstFaceSearch {
     int nodes;
     OstLocal count;
-    Face *face;    /* by centre[0] */
+    Face *face;    /* by centre, so that no partition decides between faces that are equally near */
     double radius; /* the largest */
 };
 
 static int compare_faces(const void *a, const void *b)
 {
-    const double x = ((const Face *)a)->centre[0];
-    const double y = ((const Face *)b)->centre[0];
-    return (x > y) - (x < y);
+    const double *x = ((const Face *)a)->centre, *y = ((const Face *)b)->centre;
+    int i = 0;
+    while (i < 2 && x[i] == y[i])
+        i++;
+    return (x[i] > y[i]) - (x[i] < y[i]);
 }
 
 static void take_face(const OstMesh *mesh, int n, const OstLocal *nodes, Face *face)

@@ -110,11 +110,27 @@ static OstStatus is_static(const Search *search, int *yes)
     return OST_SUCCESS;
 }
 
-static OstStatus work_of(const Search *search, const double *motion, double *work)
+/* The work of the imbalance on the given motion where no support takes it: the field has no reaction there. Nodes that
+ * follow others are solved for to the residual. */
+static double work_beside_supports(const Search *search)
 {
-    *work = 0.0;
+    const OstProblem *problem = search->problem;
+    double work = 0.0;
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes && !problem->supports->links; node++) {
+        double projector[9], free_motion[3];
+        ost_supports_get(problem->supports, node, projector, NULL);
+        ost_apply3(projector, search->interest.moved + 3 * (size_t)node, free_motion);
+        work += ost_dot3(free_motion, search->imbalance + 3 * (size_t)node);
+    }
+    return work;
+}
+
+/* The work of the imbalance on what is added to the given motion, and on that beside supports. */
+static OstStatus work_of(const Search *search, const double *added, double beside, double *work)
+{
+    *work = beside;
     for (size_t i = 0; i < 3 * (size_t)search->problem->mesh->owned_nodes; i++)
-        *work += motion[i] * search->imbalance[i];
+        *work += added[i] * search->imbalance[i];
     return ost_sum(search->problem->ctx, 1, work);
 }
 
@@ -138,7 +154,7 @@ static OstStatus find_by_statics(const Search *whole, double t, const double *u,
         if (status == OST_SUCCESS)
             find_rigid(&search);
         OST_THEN(is_static(&search, &yes));
-        OST_THEN(work_of(&search, search.rigid, &exact[axis]));
+        OST_THEN(work_of(&search, search.rigid, work_beside_supports(&search), &exact[axis]));
         before[axis] = search.interest.value;
         exact[axis] += before[axis];
         ost_interest_clear(&search.interest);
@@ -212,12 +228,13 @@ static OstStatus find_kept(void *common, int count, void *const *request)
 static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedReaction *found)
 {
     const OstProblem *problem = wanted->search->problem;
+    const double beside = work_beside_supports(wanted->search); /* the given motion may go to `kept` */
     OstStatus status = kept ? ost_together(problem->ctx, find_kept, OST_MOST_TOGETHER, kept, wanted) : OST_SUCCESS;
     if (!wanted->is_kept)
         OST_THEN(create(wanted));
     if (wanted->adjoint) {
         if (!problem->pressures) /* a mixed form is solved to its residual */
-            OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), &found->missing));
+            OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), beside, &found->missing));
         OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, &found->error));
         found->known = status == OST_SUCCESS;
     }
