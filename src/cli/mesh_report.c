@@ -114,6 +114,7 @@ OstStatus ost_mesh_report_make(const OstMesh *mesh, OstMeshReport *counts)
     OST_TRY(add_up(mesh, counts));
     OST_TRY(ost_mesh_bounds(mesh, counts->low, counts->high));
     OST_TRY(ost_mesh_surface_faces(mesh, &counts->surface_faces));
+    OST_TRY(ost_mesh_find_misfits(mesh, NULL, &counts->misfits));
     OST_TRY(ost_mesh_count_coincident(mesh, NULL, &counts->coincident, &counts->tolerance));
     return ost_components_create(mesh, &counts->components);
 }
@@ -157,6 +158,13 @@ static void print_parts(const OstMeshReport *counts)
     if (counts->coincident > 0)
         printf("\n%lld vertices lie where others are; --merge %g joins them\n", (long long)counts->coincident,
                counts->tolerance);
+    const OstMisfits *misfits = &counts->misfits;
+    if (misfits->faces > 0)
+        printf("\n%lld faces lie on faces of other tets without fitting them, from (%g, %g, %g) to (%g, %g, %g), as of "
+               "tet "
+               "%lld on tet %lld\n",
+               (long long)misfits->faces, misfits->low[0], misfits->low[1], misfits->low[2], misfits->high[0],
+               misfits->high[1], misfits->high[2], (long long)misfits->tet, (long long)misfits->neighbour);
 }
 
 void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path)
@@ -217,14 +225,15 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
                                         items[mesh->boundaries[b].dimension], "count",
                                         (json_int_t)counts->boundary_items[b], "area", counts->boundary_area[b]));
     json_t *root = json_pack(
-        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:o}", "file",
-        ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "order",
-        mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
+        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:o}",
+        "file", ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets,
+        "order", mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
         counts->low[1], counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume",
         counts->volume, "shortest_edge", counts->shortest, "longest_edge", counts->longest, "quality",
         quality_json(counts), "regions", regions, "boundaries", boundaries, "components",
         parts_json(counts->components), "coincident_vertices", (json_int_t)counts->coincident, "coincident_within",
-        counts->tolerance, "warnings", ost_json_warnings(mesh->ctx));
+        counts->tolerance, "cracked_faces", (json_int_t)counts->misfits.cracked, "misfit_faces",
+        (json_int_t)counts->misfits.faces, "warnings", ost_json_warnings(mesh->ctx));
     if (!root)
         return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", path);
