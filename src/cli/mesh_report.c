@@ -6,11 +6,13 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "element/element.h"
 #include "mesh/coincident.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* --- counting --- */
 
@@ -43,10 +45,14 @@ static void count_edges(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts
     }
 }
 
+/* Edges may be curved. */
 static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts)
 {
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-    const double volume = ost_tet_volume(mesh->coordinates, nodes), quality = ost_tet_quality(mesh->coordinates, nodes);
+    double x[3 * OST_MAX_TET_NODES];
+    ost_gather3(element->nodes, nodes, mesh->coordinates, x);
+    const double volume = element->volume(x), quality = ost_tet_quality(mesh->coordinates, nodes);
     const int bin = (int)(quality * OST_QUALITY_BINS);
     counts->volume += volume;
     counts->region_tets[mesh->tet_region[tet]]++;
@@ -61,15 +67,17 @@ static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts)
     count_edges(mesh, tet, counts);
 }
 
-/* Of the triangle between its vertices. */
-static double area_of(const OstMesh *mesh, const OstGlobal *nodes)
+/* Of a face of 3 or 6 nodes. */
+static double area_of(const OstMesh *mesh, int count, const OstGlobal *nodes)
 {
-    const double *a = mesh->coordinates + 3 * nodes[0], *b = mesh->coordinates + 3 * nodes[1],
-                 *c = mesh->coordinates + 3 * nodes[2];
-    const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    double normal[3];
-    ost_cross3(ab, ac, normal);
-    return 0.5 * ost_norm3(normal);
+    const OstElement *element = ost_element_of(count == 6 ? 10 : 4);
+    double x[3 * OST_MAX_FACE_NODES], area[OST_MAX_FACE_NODES], vectors[3 * OST_MAX_FACE_NODES], sum = 0.0;
+    for (int n = 0; n < count; n++)
+        memcpy(x + 3 * n, mesh->coordinates + 3 * nodes[n], 3 * sizeof *x);
+    element->node_areas(x, area, vectors);
+    for (int n = 0; n < count; n++)
+        sum += area[n];
+    return sum;
 }
 
 static void count_boundary(const OstMesh *mesh, int number, OstMeshReport *counts)
@@ -81,7 +89,7 @@ static void count_boundary(const OstMesh *mesh, int number, OstMeshReport *count
             continue;
         counts->boundary_items[number]++;
         if (boundary->dimension == 2)
-            counts->boundary_area[number] += area_of(mesh, nodes);
+            counts->boundary_area[number] += area_of(mesh, boundary->nodes_per_item, nodes);
     }
 }
 

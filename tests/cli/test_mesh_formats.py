@@ -177,6 +177,19 @@ for ranks in fewer([1, 2, 4]):
 said = run("mesh", stored("cae-linear.inp"), folder=folder).output
 check("48 linear tets" in said and "Clamp" in said and "least" in said, said)
 
+# A tet whose edge on x bulges by 0.1: its volume is 1/6 + 4 0.1 / 24, the area at z = 0 is 1/2 + 4 0.1 / 6, integrals of its shape functions.
+CURVED = """*NODE
+1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1
+5, .5, -.1, 0\n6, .5, .5, 0\n7, 0, .5, 0\n8, 0, 0, .5\n9, .5, 0, .5\n10, 0, .5, .5
+*ELEMENT, TYPE=C3D10
+1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10
+*SURFACE, NAME=BELOW
+1, S1
+"""
+curved = inspect(write("curved.inp", CURVED))
+check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
+      f"{curved}")
+
 # --- convert, there and back ---
 
 for ranks in fewer([1, 3]):
