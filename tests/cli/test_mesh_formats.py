@@ -190,6 +190,57 @@ curved = inspect(write("curved.inp", CURVED))
 check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
       f"{curved}")
 
+# Names in quotes have blanks and commas, and keep their small letters; other names are the same in capitals. Blanks in keywords do
+# not count, and sets may come with their instance.
+QUOTED = """*Heading
+ a model
+** comment
+*Preprint, echo=NO
+*Part, name="part one"
+*Node
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+5, 1., 1., 1.
+*Element, type=C3D4
+1, 1, 2, 3, 4
+2, 2, 3, 4, 5
+*Nset, nset="Set A, left", internal
+1, 2, 3
+*Elset, elset="part one"
+1,
+*Elset, elset=Rest
+ 2
+*Solid Section, elset="part one", material="Material 1"
+,
+*Solid  Section, ELSET=REST, material=m
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name="part one-1", part="part one"
+          0.,          0.,          2.
+*End Instance
+*Nset, nset=tip, instance="part one-1"
+ 5,
+*Nset, nset=both
+ TIP, "part one-1"."Set A, left"
+*Elset, elset=_Surf-1_S1, internal, instance="part one-1"
+ 1
+*Surface, type=ELEMENT, name="my surf"
+_surf-1_S1, s1
+*End Assembly
+*Material, name="Material 1"
+*Elastic
+1., .3
+"""
+first = inspect(write("quoted.inp", QUOTED), "again.inp")
+for named in (first, inspect("again.inp")):
+    check({r["name"]: r["tets"] for r in named["regions"]} == {"part one": 1, "Rest": 1}, f"{named['regions']}")
+    check({(b["name"], b["of"], b["count"]) for b in named["boundaries"]} ==
+          {("Set A, left", "faces", 1), ("both", "faces", 2), ("my surf", "faces", 1), ("tip", "points", 1)},
+          f"{named['boundaries']}")
+
 # --- convert, there and back ---
 
 for ranks in fewer([1, 3]):

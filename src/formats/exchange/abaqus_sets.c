@@ -4,6 +4,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -12,7 +13,8 @@
 
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind)
 {
-    const char *name = ost_inp_value(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET");
+    char text[OST_INP_WORD];
+    const char *name = ost_inp_set_name(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET", text);
     if (!name || !name[0])
         return OST_RAISE_LINE(inp->lines, "*%s without its name, such as *%s, %s=TOP", keyword->name, keyword->name,
                               keyword->name);
@@ -39,11 +41,23 @@ static OstStatus read_range(OstInp *inp)
     return ost_cells_put_range(&inp->cells, inp->set, first, last, step);
 }
 
+/* A set may come with its instance: Part-1-1.TOP. */
+static int find_set(const OstInp *inp, OstSetKind kind, const char *word)
+{
+    char inner[OST_INP_WORD];
+    const char *dot = strrchr(word, '.');
+    const int found = ost_cells_find_set(&inp->cells, kind, word);
+    if (found >= 0 || !dot)
+        return found;
+    snprintf(inner, sizeof inner, "%s%s", word[0] == '"' ? "\"" : "", dot + 1);
+    return ost_cells_find_set(&inp->cells, kind, inner);
+}
+
 /* A number, or the name of a set before. A number may come with its instance: Part-1-1.17. */
 static OstStatus put_word(OstInp *inp, const char *word)
 {
     const OstSetKind kind = inp->cells.set[inp->set].kind;
-    const int from = ost_cells_find_set(&inp->cells, kind, word);
+    const int from = find_set(inp, kind, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
@@ -61,7 +75,7 @@ OstStatus ost_inp_set_line(OstInp *inp)
     if (inp->generate)
         return read_range(inp);
     while (!ost_lines_ended(inp->lines)) {
-        ost_lines_word(inp->lines, word, sizeof word);
+        ost_inp_word(inp->lines, word);
         OST_TRY(put_word(inp, word));
     }
     return OST_SUCCESS;
@@ -69,7 +83,8 @@ OstStatus ost_inp_set_line(OstInp *inp)
 
 OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
 {
-    const char *name = ost_inp_value(keyword, "NAME"), *type = ost_inp_value(keyword, "TYPE");
+    char text[OST_INP_WORD];
+    const char *name = ost_inp_set_name(keyword, "NAME", text), *type = ost_inp_value(keyword, "TYPE");
     const int of_nodes = type && strcasecmp(type, "NODE") == 0;
     if (!name || !name[0])
         return OST_RAISE_LINE(inp->lines, "*SURFACE without its name, such as *SURFACE, NAME=TOP");
@@ -101,7 +116,7 @@ static OstStatus put_face(OstInp *inp, OstGlobal label, int side)
 /* The faces of an element, or of all of a set. */
 static OstStatus put_faces(OstInp *inp, const char *word, int side)
 {
-    const int from = ost_cells_find_set(&inp->cells, OST_SET_OF_CELLS, word);
+    const int from = find_set(inp, OST_SET_OF_CELLS, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
@@ -121,8 +136,8 @@ static OstStatus put_faces(OstInp *inp, const char *word, int side)
 OstStatus ost_inp_surface_line(OstInp *inp)
 {
     char word[OST_INP_WORD], face[OST_INP_WORD];
-    ost_lines_word(inp->lines, word, sizeof word);
-    ost_lines_word(inp->lines, face, sizeof face);
+    ost_inp_word(inp->lines, word);
+    ost_inp_word(inp->lines, face);
     if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
         return put_shells(inp, word);
     if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '6' && face[2] == '\0')
