@@ -190,6 +190,31 @@ curved = inspect(write("curved.inp", CURVED))
 check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
       f"{curved}")
 
+# MEDIT's quadratic solids, whose nodes may be in any order behind the vertices. The bodies are sheared by x + y z / 5, which keeps volumes.
+CORNERS = {"HexahedraQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)),
+           "PrismsP2": ((0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (0, 2, 2)),
+           "PyramidsP2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2)), "QuadrilateralsQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0))}
+EDGES = {"HexahedraQ2": "01 12 23 30 45 56 67 74 04 15 26 37 0123 4567 0145 1256 2367 3704 01234567",
+         "PrismsP2": "01 12 20 34 45 53 03 14 25 0143 1254 2035", "PyramidsP2": "01 12 23 30 04 14 24 34 0123", "QuadrilateralsQ2": "01 12 23 30 0123"}
+
+
+def medit(shapes, seed):
+    nodes, lines = {}, []
+    for word in shapes:
+        at = [np.array(corner) / 2 for corner in CORNERS[word]]
+        middles = [np.mean([at[int(c)] for c in ends], axis=0) for ends in EDGES[word].split()]
+        np.random.default_rng(seed).shuffle(middles)
+        numbers = [nodes.setdefault(tuple(x), len(nodes) + 1) for x in at + middles]
+        lines += [f"{word}\n1", " ".join(map(str, numbers)) + " 3"]
+    vertices = [f"{x + y * z / 5} {y} {z} 0" for x, y, z in nodes]
+    return "\n".join(["MeshVersionFormatted 2", "Dimension 3", f"Vertices {len(vertices)}", *vertices, *lines, "End", ""])
+
+
+for seed, (shapes, volume) in enumerate(((("HexahedraQ2", "QuadrilateralsQ2"), 1), (("PrismsP2",), 1 / 2), (("PyramidsP2", "QuadrilateralsQ2"), 1 / 3))):
+    held = inspect(write("middles.mesh", medit(shapes, seed)))
+    check(held["order"] == 2 and abs(held["volume"] - volume) < 1e-12 and held["regions"][0]["name"] == "volume-3", f"{shapes}: {held}")
+    check([(b["count"], round(b["area"], 12)) for b in held["boundaries"]] == ([(2, 1)] if len(shapes) > 1 else []), f"{held['boundaries']}")
+
 # Names in quotes have blanks and commas, and keep their small letters; other names are the same in capitals. Blanks in keywords do
 # not count, and sets may come with their instance.
 QUOTED = """*Heading

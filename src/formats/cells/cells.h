@@ -118,6 +118,10 @@ void ost_cells_keep_once(OstCells *cells, int set);
 OstStatus ost_cells_put_set(OstCells *cells, int set, int from);
 OstStatus ost_cells_put_range(OstCells *cells, int set, OstGlobal first, OstGlobal last, OstGlobal step);
 
+/* Local. Puts the nodes of a quadratic kind that are no vertices, which a format has in no known order, where
+ * formats/cells wants them: by where they lie in all cells together. Labels of nodes are 1, 2, 3, ... */
+OstStatus ost_cells_order_middles(OstCells *cells, OstCellKind kind);
+
 /* Local. Makes the chunk: other solids become tets; sets and groups of tets become regions (a tet in several goes to
  * the one with the fewest), those of triangles, lines, points, nodes and faces become boundaries; what is no part of
  * the body is left out with warnings. Raises OST_INVALID_INPUT for solids that are not read, for nodes that are not

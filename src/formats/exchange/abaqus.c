@@ -227,7 +227,11 @@ static OstStatus read_element(OstInp *inp)
     if (inp->filled < width)
         return OST_SUCCESS;
     inp->filled = 0;
-    OST_TRY(ost_lines_finish(inp->lines, "the nodes of an element"));
+    if (!ost_lines_ended(inp->lines))
+        return OST_RAISE_LINE(inp->lines,
+                              "element %" PRId64 " has more nodes than the %d of %s (in Gmsh: "
+                              "Mesh.SecondOrderIncomplete = 1)",
+                              inp->element[0], width - 1, inp->type);
     if (inp->kind == OST_CELL_HEX27)
         order_c3d27(inp->element + 1);
     OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, inp->element + 1));
