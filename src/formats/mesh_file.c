@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/mesh_formats.h"
+#include "formats/vtk/vtk.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
@@ -117,15 +118,27 @@ int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
     return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
+/* Do all ranks read it? */
+static OstStatus is_parallel(OstContext *ctx, const OstMeshFormat *format, const char *path, int *parallel)
+{
+    int others = 0;
+    if (format->parallel)
+        OST_TRY(ost_vtk_hdf_has_others(ctx, path, &others));
+    *parallel = format->parallel && !others;
+    return OST_SUCCESS;
+}
+
 static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
+    int parallel = 0;
     *chunk = NULL;
     *materials = NULL;
     const OstMeshFormat *format = find_format(path);
     if (!format)
-        status = ost_mesh_file_check_name(ctx, path);
-    else if (format->parallel) {
+        return ost_mesh_file_check_name(ctx, path);
+    OST_TRY(is_parallel(ctx, format, path, &parallel));
+    if (parallel) {
         status = ost_agree(ctx, OST_NEW(ctx, materials, 1));
         OST_THEN(ost_vtkhdf_read(ctx, path, chunk));
     } else
@@ -165,7 +178,9 @@ static OstStatus read_field(OstContext *ctx, const char *path, const char *name,
     const OstMeshFormat *format = find_format(path);
     if (!format)
         return ost_mesh_file_check_name(ctx, path);
-    if (format->parallel)
+    int parallel = 0;
+    OST_TRY(is_parallel(ctx, format, path, &parallel));
+    if (parallel)
         return ost_vtkhdf_read_field(ctx, path, name, use, chunk);
     if (!format->read_field)
         return OST_RAISE(

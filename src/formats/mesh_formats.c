@@ -12,8 +12,8 @@
 const OstMeshFormat ost_mesh_formats[] = {
     {".msh", 0, ost_msh_read, NULL, ost_msh_read_field},
     {".msh.gz", 0, ost_msh_read, NULL, ost_msh_read_field},
-    {".vtkhdf", 1, NULL, NULL, NULL},
-    {".hdf", 1, NULL, NULL, NULL}, /* a VTKHDF file as ParaView 5.11 knows it */
+    {".vtkhdf", 1, ost_vtk_read, NULL, ost_vtk_read_field},
+    {".hdf", 1, ost_vtk_read, NULL, ost_vtk_read_field}, /* a VTKHDF file as ParaView 5.11 knows it */
     {".vtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".vtk", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".inp", 0, ost_abaqus_read, NULL, NULL},

@@ -3,6 +3,7 @@ refines, merges and orients."""
 import json
 import os
 
+import h5py
 import meshio
 import numpy as np
 
@@ -214,6 +215,30 @@ for seed, (shapes, volume) in enumerate(((("HexahedraQ2", "QuadrilateralsQ2"), 1
     held = inspect(write("middles.mesh", medit(shapes, seed)))
     check(held["order"] == 2 and abs(held["volume"] - volume) < 1e-12 and held["regions"][0]["name"] == "volume-3", f"{shapes}: {held}")
     check([(b["count"], round(b["area"], 12)) for b in held["boundaries"]] == ([(2, 1)] if len(shapes) > 1 else []), f"{held['boundaries']}")
+
+# A VTKHDF file of another program, in two pieces: a hexahedron and its face, and a wedge beside it, with points of their own.
+with h5py.File(os.path.join(folder, "other.vtkhdf"), "w") as file:
+    group = file.create_group("VTKHDF")
+    group.attrs["Version"] = [2, 0]
+    group.attrs.create("Type", np.bytes_("UnstructuredGrid"))
+    group["Points"] = np.array([*CORNERS["HexahedraQ2"], (2, 0, 0), (4, 0, 0), (2, 2, 0), (2, 0, 2), (4, 0, 2), (2, 2, 2)]) / 2
+    group["NumberOfPoints"], group["NumberOfCells"], group["NumberOfConnectivityIds"] = [8, 6], [2, 1], [12, 6]
+    group["Types"] = np.array([12, 9, 13], dtype=np.uint8)
+    group["Offsets"], group["Connectivity"] = [0, 8, 12, 0, 6], [*range(8), 0, 4, 7, 3, *range(6)]
+    group["CellData/region"], group["CellData/modulus"] = [4, 6, 5], [1000, 0, 2000]
+held = inspect("other.vtkhdf", "--merge", "1e-9")
+check({r["name"]: round(r["volume"], 12) for r in held["regions"]} == {"volume-4": 1, "volume-5": 0.5} and
+      [(b["name"], b["count"], b["area"]) for b in held["boundaries"]] == [("surface-6", 2, 1)] and
+      len(held["components"]) == 1 and held["misfit_faces"] == held["cracked_faces"] == 0, f"{held}")
+write("other.yaml", """mesh: {file: other.vtkhdf, merge: 1e-9}
+materials: [{region: all, youngs_modulus: {field: modulus}, poissons_ratio: 0}]
+constraints: [{on: {boundary: surface-6}, displacement: [0, 0, 0]}, {on: {plane: {point: [1, 0, 0], normal: [1, 0, 0]}}, displacement: [0.1, free, free]}]
+large_rotation: off
+watch: {pull: {reaction: {boundary: surface-6}, component: x}}
+""")
+for ranks in fewer([1, 2]):
+    done = run("solve", "other.yaml", "-q", "--json", "-", "--output", "out.vtkhdf", ranks=ranks, folder=folder)
+    check(done.exit_code == 0 and abs(json.loads(done.output)["watched"]["pull"]["value"] + 100) < 1e-5, done.errors + done.output)
 
 # Names in quotes have blanks and commas, and keep their small letters; other names are the same in capitals. Blanks in keywords do
 # not count, and sets may come with their instance.

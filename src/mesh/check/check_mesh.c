@@ -85,7 +85,8 @@ static OstStatus check_volumes(const OstMesh *mesh)
     OST_TRY(ost_min_numbers(mesh->ctx, 1, &first));
     OST_TRY(ost_sum_numbers(mesh->ctx, 1, &bad));
     int twisted = 0;
-    OST_TRY(find_upright(mesh, first, &twisted));
+    if (first < INT64_MAX)
+        OST_TRY(find_upright(mesh, first, &twisted));
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && lowest == first) {
         const OstLocal *nodes = ost_mesh_nodes_of(mesh, worst);
