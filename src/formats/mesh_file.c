@@ -57,14 +57,23 @@ done:
     return status;
 }
 
-/* Gmsh calls versions of its format .msh1 to .msh41. */
+static size_t length_without_digits(const char *path, size_t length)
+{
+    while (length > 0 && isdigit((unsigned char)path[length - 1]))
+        length--;
+    return length;
+}
+
+/* Gmsh calls versions of its format .msh1 to .msh41; parts of an Exodus file end with .4.0 to .4.3. */
 static size_t length_without_version(const char *path)
 {
-    const size_t length = strlen(path);
-    size_t bare = length;
-    while (bare > 0 && isdigit((unsigned char)path[bare - 1]))
-        bare--;
-    return bare >= 4 && strncasecmp(path + bare - 4, ".msh", 4) == 0 ? bare : length;
+    const size_t length = strlen(path), bare = length_without_digits(path, length);
+    if (bare >= 4 && strncasecmp(path + bare - 4, ".msh", 4) == 0)
+        return bare;
+    if (bare == length || bare < 2 || path[bare - 1] != '.')
+        return length;
+    const size_t rest = length_without_digits(path, bare - 1);
+    return rest >= 2 && rest < bare - 1 && path[rest - 1] == '.' ? rest - 1 : length;
 }
 
 static int ends_with(const char *path, const char *ending)
