@@ -102,23 +102,24 @@ static OstStatus read_names(OstMshCursor *cursor, OstVtkGrid *grid)
     return OST_SUCCESS;
 }
 
-static OstStatus begin_piece(Vtu *vtu, const OstXmlTag *tag)
-{
-    OstVtkGrid *grid = vtu->grid;
-    vtu->first_point = grid->points;
-    vtu->first_cell = grid->cells;
-    vtu->first_connection = grid->connections;
-    vtu->seen = 0;
-    OST_TRY(ost_xml_number(vtu->cursor, tag, "NumberOfPoints", 0, &vtu->points));
-    return ost_xml_number(vtu->cursor, tag, "NumberOfCells", 0, &vtu->cells);
-}
-
 static OstStatus end_piece(Vtu *vtu)
 {
     if (vtu->points == 0 && vtu->cells == 0)
         return OST_SUCCESS;
     return vtu->seen == HAS_ALL ? OST_SUCCESS
                                 : OST_RAISE_MSH(vtu->cursor, "the piece has no points, connectivity, offsets or types");
+}
+
+static OstStatus begin_piece(Vtu *vtu, const OstXmlTag *tag)
+{
+    OstVtkGrid *grid = vtu->grid;
+    OST_TRY(end_piece(vtu)); /* one that the file does not end */
+    vtu->first_point = grid->points;
+    vtu->first_cell = grid->cells;
+    vtu->first_connection = grid->connections;
+    vtu->seen = 0;
+    OST_TRY(ost_xml_number(vtu->cursor, tag, "NumberOfPoints", 0, &vtu->points));
+    return ost_xml_number(vtu->cursor, tag, "NumberOfCells", 0, &vtu->cells);
 }
 
 static OstStatus take_points(Vtu *vtu, const double *values)
@@ -257,7 +258,7 @@ OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid)
     for (;;) {
         OST_TRY(ost_xml_next(cursor, &tag, &found));
         if (!found || strcmp(tag.name, "AppendedData") == 0)
-            return OST_SUCCESS;
+            return end_piece(&vtu);
         OST_TRY(read_tag(&vtu, &tag));
     }
 }
