@@ -44,7 +44,8 @@ typedef enum {
     MESH_SURFACE,
     BY_PARAVIEW,
     BY_EXPORT,
-    IS_CASE
+    IS_CASE,
+    BESIDE
 } Way;
 
 /* Debian's python3-meshio has no command of its own. */
@@ -58,6 +59,7 @@ static const char *const way_words[] = {
     [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
     [BY_PARAVIEW] = "open %s in ParaView, and save it as %.*s.vtu (File, Save Data)",
     [IS_CASE] = "is it a case? Then 'orthostat check %s' reads it, with its mesh",
+    [BESIDE] = "take the mesh that %s is a part of: %.*s.ele",
     [BY_EXPORT] = "export %s from its program as %.*s.inp (Abaqus) or .bdf (Nastran)",
 };
 
@@ -94,6 +96,8 @@ static const struct {
     {".p3d", "Plot3D", BY_PARAVIEW},
     {".geo", "Gmsh's model", MESH_SOLID},
     {".geo_unrolled", "Gmsh's model", MESH_SOLID},
+    {".face", "TetGen's faces alone", BESIDE},
+    {".edge", "TetGen's edges alone", BESIDE},
     {".step", "STEP", MESH_SOLID},
     {".stp", "STEP", MESH_SOLID},
     {".iges", "IGES", MESH_SOLID},

@@ -260,16 +260,36 @@ static OstStatus begin_elements(OstInp *inp, const OstInpKeyword *keyword)
     return set ? ost_cells_set(&inp->cells, OST_SET_OF_CELLS, set, &inp->set) : OST_SUCCESS;
 }
 
+/* Keywords that make nodes or elements of others, which are not read. */
+static int generates(const char *name)
+{
+    static const char *const words[] = {
+        "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRICMODELGENERATION"};
+    for (size_t w = 0; w < sizeof words / sizeof *words; w++)
+        if (strcmp(name, words[w]) == 0)
+            return 1;
+    return 0;
+}
+
 /* --- parts --- */
+
+static const char without_parts[] = "each has its own numbers. Write the model without parts and assemblies (in CAE: "
+                                    "model attributes, 'Do not use parts "
+                                    "and assemblies in input files')";
+
+static OstStatus begin_part(OstInp *inp)
+{
+    return ++inp->parts > 1 && inp->cells.chunk->node_count > 0
+               ? OST_RAISE_LINE(inp->lines, "a second part; %s", without_parts)
+               : OST_SUCCESS;
+}
 
 static OstStatus begin_instance(OstInp *inp)
 {
     inp->block = OST_INP_INSTANCE;
     inp->instance_lines = 0;
     if (++inp->instances > 1)
-        return OST_RAISE_LINE(
-            inp->lines, "a second instance; each has its own numbers. Write the model without parts and "
-                        "assemblies (in CAE: model attributes, 'Do not use parts and assemblies in input files')");
+        return OST_RAISE_LINE(inp->lines, "a second instance; %s", without_parts);
     return OST_SUCCESS;
 }
 
@@ -345,6 +365,15 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
         return ost_inp_begin_surface(inp, keyword);
     if (strcmp(name, "SOLIDSECTION") == 0)
         return mark_section(inp, keyword);
+    if (generates(name))
+        return OST_RAISE_LINE(inp->lines,
+                              "*%s makes nodes or elements of others, which is not read; write the mesh with all of "
+                              "them, as CAE does",
+                              name);
+    if (strcmp(name, "SYSTEM") == 0)
+        inp->block = OST_INP_SYSTEM;
+    if (strcmp(name, "PART") == 0)
+        return begin_part(inp);
     return strcmp(name, "INSTANCE") == 0 ? begin_instance(inp) : OST_SUCCESS;
 }
 
@@ -364,6 +393,10 @@ static OstStatus read_data_line(OstInp *inp)
         return ost_inp_surface_line(inp);
     case OST_INP_INSTANCE:
         return read_instance_line(inp);
+    case OST_INP_SYSTEM:
+        return OST_RAISE_LINE(inp->lines,
+                              "*SYSTEM turns or shifts the nodes after it, which is not read; write them in "
+                              "the global system, as CAE does");
     case OST_INP_NOTHING:
         break;
     }

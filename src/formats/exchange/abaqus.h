@@ -13,7 +13,8 @@ typedef enum {
     OST_INP_SKIPPED,
     OST_INP_SET,
     OST_INP_SURFACE,
-    OST_INP_INSTANCE
+    OST_INP_INSTANCE,
+    OST_INP_SYSTEM
 } OstInpBlock;
 
 enum { OST_INP_WORD = 128, OST_INP_PARAMETERS = 16 };
@@ -42,7 +43,7 @@ typedef struct OstInp {
     const char *shape; /* of elements that are skipped */
     char type[OST_INP_WORD];
     int dimension;
-    int instances, instance_lines;
+    int parts, instances, instance_lines;
     double shift[3]; /* of the instance */
     int sections;    /* *SOLID SECTION found? */
     OstGlobal left_out;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/number_set.h"
 #include "formats/exchange/abaqus.h"
 
 #include <ctype.h>
@@ -10,6 +11,46 @@
 #include <strings.h>
 
 /* Sets and surfaces of Abaqus's and CalculiX's input. */
+
+/* A set may come with its instance: Part-1-1.TOP. */
+static int find_set(const OstInp *inp, OstSetKind kind, const char *word)
+{
+    char inner[OST_INP_WORD];
+    const char *dot = strrchr(word, '.');
+    const int found = ost_cells_find_set(&inp->cells, kind, word);
+    if (found >= 0 || !dot)
+        return found;
+    snprintf(inner, sizeof inner, "%s%s", word[0] == '"' ? "\"" : "", dot + 1);
+    return ost_cells_find_set(&inp->cells, kind, inner);
+}
+
+/* The nodes of the elements of a set. */
+static OstStatus put_nodes_of(OstInp *inp, int from)
+{
+    OstCells *cells = &inp->cells;
+    ost_cells_keep_once(cells, from);
+    const OstCellSet *set = &cells->set[from];
+    for (int k = 0; k < OST_CELL_KINDS && set->count > 0; k++) {
+        const OstCellList *list = &cells->list[k];
+        const size_t width = (size_t)ost_cell_facts[k].nodes;
+        for (size_t i = 0; i < (size_t)list->count; i++)
+            for (size_t n = 0; n < width && ost_numbers_find(set->count, set->item, list->label[i]) >= 0; n++)
+                OST_TRY(ost_cells_put(cells, inp->set, list->nodes[i * width + n]));
+    }
+    ost_cells_keep_once(cells, inp->set);
+    return OST_SUCCESS;
+}
+
+/* *NSET, NSET=..., ELSET=... */
+static OstStatus take_elements(OstInp *inp, const OstInpKeyword *keyword)
+{
+    char name[OST_INP_WORD];
+    if (!ost_inp_set_name(keyword, "ELSET", name))
+        return OST_SUCCESS;
+    const int from = find_set(inp, OST_SET_OF_CELLS, name);
+    return from >= 0 ? put_nodes_of(inp, from)
+                     : OST_RAISE_LINE(inp->lines, "there is no element set '%s' before this line", name);
+}
 
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind)
 {
@@ -24,7 +65,7 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
     /* CAE keeps the tets of a surface in sets of its own. */
     if (ost_inp_value(keyword, "INTERNAL"))
         inp->cells.set[inp->set].is_region = 0;
-    return OST_SUCCESS;
+    return kind == OST_SET_OF_NODES ? take_elements(inp, keyword) : OST_SUCCESS;
 }
 
 static OstStatus read_range(OstInp *inp)
@@ -39,18 +80,6 @@ static OstStatus read_range(OstInp *inp)
             inp->lines, "the range %" PRId64 " to %" PRId64 " in steps of %" PRId64 " found, expected it to ascend",
             first, last, step);
     return ost_cells_put_range(&inp->cells, inp->set, first, last, step);
-}
-
-/* A set may come with its instance: Part-1-1.TOP. */
-static int find_set(const OstInp *inp, OstSetKind kind, const char *word)
-{
-    char inner[OST_INP_WORD];
-    const char *dot = strrchr(word, '.');
-    const int found = ost_cells_find_set(&inp->cells, kind, word);
-    if (found >= 0 || !dot)
-        return found;
-    snprintf(inner, sizeof inner, "%s%s", word[0] == '"' ? "\"" : "", dot + 1);
-    return ost_cells_find_set(&inp->cells, kind, inner);
 }
 
 /* A number, or the name of a set before. A number may come with its instance: Part-1-1.17. */
