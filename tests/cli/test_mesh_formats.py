@@ -191,6 +191,19 @@ curved = inspect(write("curved.inp", CURVED))
 check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
       f"{curved}")
 
+# What makes nodes of others, or moves them, is told; the rest of what Abaqus and Nastran have is read.
+FOUR = "*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+ONE = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n"
+for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NGEN\n1, 4, 1\n" + ONE, "*NGEN"),
+                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "a second part"), ("", "is empty")):
+    done = run("mesh", write("told.inp", text), folder=folder)
+    check(done.exit_code == 2 and words in done.errors, f"{words}: {done.errors}")
+held = inspect(write("mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
+check(held["tets"] == 1 and held["boundaries"][0]["name"] == "N" and held["boundaries"][0]["count"] == 4, f"{held}")
+write("nodes.bdf", NODES)
+held = inspect(write("included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
+check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")
+
 # MEDIT's quadratic solids, whose nodes may be in any order behind the vertices. The bodies are sheared by x + y z / 5, which keeps volumes.
 CORNERS = {"HexahedraQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)),
            "PrismsP2": ((0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (0, 2, 2)),
@@ -322,6 +335,20 @@ for order, points, kinds in (("linear", 23, {"tetra": 48, "triangle": 4}), ("qua
           f"{kept['regions']} {kept['boundaries']}")
 bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
 check(bad.exit_code == 2 and ".msh" in bad.errors and ".vtu" in bad.errors, bad.errors)
+
+# VTK's packers: LZ4 is read, LZMA refused where it packs anything.
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter  # noqa: E402
+source, writer = vtkXMLUnstructuredGridReader(), vtkXMLUnstructuredGridWriter()
+source.SetFileName(os.path.join(folder, "large.vtu"))
+writer.SetInputConnection(source.GetOutputPort())
+for packer, mode, taken in (("LZ4", "Appended", True), ("LZ4", "Binary", True), ("LZMA", "Ascii", True), ("LZMA", "Binary", False)):
+    getattr(writer, "SetCompressorTypeTo" + packer)()
+    getattr(writer, "SetDataModeTo" + mode)()
+    writer.SetFileName(os.path.join(folder, "packed.vtu"))
+    writer.Write()
+    done = run("mesh", "packed.vtu", folder=folder)
+    check(done.exit_code == (0 if taken else 2) and ("24576" in done.output if taken else "zlib nor LZ4" in done.errors),
+          f"{packer} {mode}: {done.output} {done.errors}")
 
 # --- meshio's sets, and whole numbers that look like them ---
 

@@ -51,13 +51,16 @@ static OstStatus begin_file(Vtu *vtu, const OstXmlTag *tag)
     const int one = 1;
     const int little = *(const char *)&one;
     if (!type || strcmp(type, "UnstructuredGrid") != 0)
-        return OST_RAISE_MSH(vtu->cursor, "a file of the type '%s', expected UnstructuredGrid", type ? type : "");
-    if (packed && packed[0] && strcmp(packed, "vtkZLibDataCompressor") != 0)
-        return OST_RAISE_MSH(vtu->cursor, "data packed by %s, expected by zlib or not at all; write the file again so",
-                             packed);
+        return OST_RAISE_MSH(vtu->cursor,
+                             "a file of the type '%s', expected UnstructuredGrid (in ParaView: Tetrahedralize, then "
+                             "File, Save Data as .vtu)",
+                             type ? type : "");
     vtu->store.swapped = order && (strcmp(order, "LittleEndian") == 0) != little;
     vtu->store.header_bytes = header && strcmp(header, "UInt64") == 0 ? 8 : 4;
-    vtu->store.compressed = packed && packed[0];
+    vtu->store.packer = !packed || !packed[0]                          ? OST_VTU_PLAIN
+                        : strcmp(packed, "vtkZLibDataCompressor") == 0 ? OST_VTU_ZLIB
+                        : strcmp(packed, "vtkLZ4DataCompressor") == 0  ? OST_VTU_LZ4
+                                                                       : OST_VTU_OTHER;
     return OST_SUCCESS;
 }
 
