@@ -166,13 +166,18 @@ static void print_parts(const OstMeshReport *counts)
     if (counts->coincident > 0)
         printf("\n%lld vertices lie where others are; --merge %g joins them\n", (long long)counts->coincident,
                counts->tolerance);
-    const OstMisfits *misfits = &counts->misfits;
+}
+
+static void print_misfits(const OstMesh *mesh, const OstMisfits *misfits)
+{
+    char cells[2][OST_CELL_WORDS];
     if (misfits->faces > 0)
-        printf("\n%lld faces lie on faces of other tets without fitting them, from (%g, %g, %g) to (%g, %g, %g), as of "
-               "tet "
-               "%lld on tet %lld\n",
+        printf("\n%lld faces lie on faces of others without fitting them, from (%g, %g, %g) to (%g, %g, %g), as of\n"
+               "  tet %lld%s on tet %lld%s\n",
                (long long)misfits->faces, misfits->low[0], misfits->low[1], misfits->low[2], misfits->high[0],
-               misfits->high[1], misfits->high[2], (long long)misfits->tet, (long long)misfits->neighbour);
+               misfits->high[1], misfits->high[2], (long long)misfits->tet,
+               ost_cell_words(mesh, misfits->tet, cells[0]), (long long)misfits->neighbour,
+               ost_cell_words(mesh, misfits->neighbour, cells[1]));
 }
 
 void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path)
@@ -195,6 +200,7 @@ void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, con
         putchar('\n');
     }
     print_parts(counts);
+    print_misfits(mesh, &counts->misfits);
     print_histogram(mesh, counts);
 }
 
