@@ -395,12 +395,14 @@ static OstStatus include(Nastran *nastran, const char *line, const char *end)
     char path[PATH_MAX];
     int ended = 0;
     const OstMshCursor outer = nastran->cursor;
+    OstMshCursor inner;
     OST_TRY(end_card(nastran));
     nastran->name[0] = '\0';
     if (nastran->depth == MOST_INCLUDES)
         return OST_RAISE_MSH(&nastran->cursor, "files include each other more than %d deep", MOST_INCLUDES);
     included_path(&outer, line, end, path);
-    OST_TRY(ost_msh_open(outer.ctx, path, &nastran->cursor));
+    OST_TRY(ost_msh_open(outer.ctx, path, &inner));
+    nastran->cursor = inner;
     nastran->depth++;
     const OstStatus status = read_cards(nastran, &ended);
     nastran->depth--;
