@@ -47,8 +47,8 @@ static int find_first(const char *whole, char path[PATH_MAX])
     for (struct dirent *entry = open ? readdir(open) : NULL; entry; entry = readdir(open))
         if (strncmp(entry->d_name, name, strlen(name)) == 0 && find_stem(entry->d_name, &parts) == strlen(name) &&
             parts < fewest) {
-            fewest = parts;
-            snprintf(path, PATH_MAX, "%.*s%s", (int)(name - whole), whole, entry->d_name);
+            const int used = snprintf(path, PATH_MAX, "%.*s%s", (int)(name - whole), whole, entry->d_name);
+            fewest = used > 0 && used < PATH_MAX ? parts : fewest;
         }
     if (open)
         closedir(open);
@@ -62,8 +62,8 @@ static OstStatus add_part(OstContext *ctx, const char *any, size_t stem, int num
     snprintf(whole, sizeof whole, "%d", parts->count);
     const int digits = (int)strlen(whole), given = parts->count;
     for (int padded = digits; padded >= 1; padded--) {
-        snprintf(path, sizeof path, "%.*s.%d.%0*d", (int)stem, any, given, padded, number);
-        if (access(path, F_OK) == 0)
+        const int used = snprintf(path, sizeof path, "%.*s.%d.%0*d", (int)stem, any, given, padded, number);
+        if (used > 0 && (size_t)used < sizeof path && access(path, F_OK) == 0)
             return ost_copy_string(ctx, path, &parts->path[number]);
     }
     return OST_RAISE(ctx, OST_INVALID_INPUT,
