@@ -283,6 +283,9 @@ static OstStatus find_levels(Search *search, const unsigned char *joined)
 static OstStatus list_all(Search *search, const unsigned char *joined)
 {
     Face face;
+    search->room = search->surface->count < INT32_MAX / 4 ? 3 * search->surface->count + 64 : INT32_MAX / 2;
+    OST_TRY(OST_NEW(search->mesh->ctx, &search->face, search->room));
+    OST_TRY(OST_NEW(search->mesh->ctx, &search->to, search->room));
     for (OstLocal f = 0; f < search->surface->count; f++) {
         if (!is_mine(search, f, joined))
             continue;
@@ -326,17 +329,29 @@ static Answer look_up(const Face *face, OstLocal count, const Face *listed)
     return answer;
 }
 
+/* The most that are listed in one cube. */
+static OstLocal most_listed(OstLocal count, const Key *key)
+{
+    OstLocal most = 0;
+    for (OstLocal i = 0, found = 0; i < count; i++) {
+        found = i > 0 && key[i - 1].cube == key[i].cube ? found : 0;
+        found += !key[i].looks;
+        most = found > most ? found : most;
+    }
+    return most;
+}
+
 static OstStatus look_up_all(OstContext *ctx, OstLocal count, const Face *arrived, Answer *answer)
 {
     Key *key = NULL;
     Face *listed = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(ctx, &key, count));
-    OST_TRY_DONE(OST_NEW(ctx, &listed, count));
     for (OstLocal i = 0; i < count; i++)
         key[i] = (Key){arrived[i].cube, i, arrived[i].looks};
     if (count > 0)
         qsort(key, (size_t)count, sizeof *key, compare_keys);
+    OST_TRY_DONE(OST_NEW(ctx, &listed, most_listed(count, key)));
     OstLocal found = 0;
     for (OstLocal i = 0; i < count; i++) {
         if (i == 0 || key[i - 1].cube != key[i].cube)
