@@ -6,11 +6,13 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "element/element.h"
 #include "mesh/coincident.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* --- counting --- */
 
@@ -43,10 +45,14 @@ static void count_edges(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts
     }
 }
 
+/* Edges may be curved. */
 static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts)
 {
+    const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
-    const double volume = ost_tet_volume(mesh->coordinates, nodes), quality = ost_tet_quality(mesh->coordinates, nodes);
+    double x[3 * OST_MAX_TET_NODES];
+    ost_gather3(element->nodes, nodes, mesh->coordinates, x);
+    const double volume = element->volume(x), quality = ost_tet_quality(mesh->coordinates, nodes);
     const int bin = (int)(quality * OST_QUALITY_BINS);
     counts->volume += volume;
     counts->region_tets[mesh->tet_region[tet]]++;
@@ -61,15 +67,17 @@ static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts)
     count_edges(mesh, tet, counts);
 }
 
-/* Of the triangle between its vertices. */
-static double area_of(const OstMesh *mesh, const OstGlobal *nodes)
+/* Of a face of 3 or 6 nodes. */
+static double area_of(const OstMesh *mesh, int count, const OstGlobal *nodes)
 {
-    const double *a = mesh->coordinates + 3 * nodes[0], *b = mesh->coordinates + 3 * nodes[1],
-                 *c = mesh->coordinates + 3 * nodes[2];
-    const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, ac[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    double normal[3];
-    ost_cross3(ab, ac, normal);
-    return 0.5 * ost_norm3(normal);
+    const OstElement *element = ost_element_of(count == 6 ? 10 : 4);
+    double x[3 * OST_MAX_FACE_NODES], area[OST_MAX_FACE_NODES], vectors[3 * OST_MAX_FACE_NODES], sum = 0.0;
+    for (int n = 0; n < count; n++)
+        memcpy(x + 3 * n, mesh->coordinates + 3 * nodes[n], 3 * sizeof *x);
+    element->node_areas(x, area, vectors);
+    for (int n = 0; n < count; n++)
+        sum += area[n];
+    return sum;
 }
 
 static void count_boundary(const OstMesh *mesh, int number, OstMeshReport *counts)
@@ -81,7 +89,7 @@ static void count_boundary(const OstMesh *mesh, int number, OstMeshReport *count
             continue;
         counts->boundary_items[number]++;
         if (boundary->dimension == 2)
-            counts->boundary_area[number] += area_of(mesh, nodes);
+            counts->boundary_area[number] += area_of(mesh, boundary->nodes_per_item, nodes);
     }
 }
 
@@ -114,6 +122,7 @@ OstStatus ost_mesh_report_make(const OstMesh *mesh, OstMeshReport *counts)
     OST_TRY(add_up(mesh, counts));
     OST_TRY(ost_mesh_bounds(mesh, counts->low, counts->high));
     OST_TRY(ost_mesh_surface_faces(mesh, &counts->surface_faces));
+    OST_TRY(ost_mesh_find_misfits(mesh, NULL, &counts->misfits));
     OST_TRY(ost_mesh_count_coincident(mesh, NULL, &counts->coincident, &counts->tolerance));
     return ost_components_create(mesh, &counts->components);
 }
@@ -159,6 +168,18 @@ static void print_parts(const OstMeshReport *counts)
                counts->tolerance);
 }
 
+static void print_misfits(const OstMesh *mesh, const OstMisfits *misfits)
+{
+    char cells[2][OST_CELL_WORDS];
+    if (misfits->faces > 0)
+        printf("\n%lld faces lie on faces of others without fitting them, from (%g, %g, %g) to (%g, %g, %g), as of\n"
+               "  tet %lld%s on tet %lld%s\n",
+               (long long)misfits->faces, misfits->low[0], misfits->low[1], misfits->low[2], misfits->high[0],
+               misfits->high[1], misfits->high[2], (long long)misfits->tet,
+               ost_cell_words(mesh, misfits->tet, cells[0]), (long long)misfits->neighbour,
+               ost_cell_words(mesh, misfits->neighbour, cells[1]));
+}
+
 void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path)
 {
     printf("%s: %lld %s tets, %lld nodes, %.0f faces on the surface\n", path, (long long)mesh->global_tets,
@@ -179,6 +200,7 @@ void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, con
         putchar('\n');
     }
     print_parts(counts);
+    print_misfits(mesh, &counts->misfits);
     print_histogram(mesh, counts);
 }
 
@@ -217,14 +239,15 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
                                         items[mesh->boundaries[b].dimension], "count",
                                         (json_int_t)counts->boundary_items[b], "area", counts->boundary_area[b]));
     json_t *root = json_pack(
-        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:o}", "file",
-        ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "order",
-        mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
+        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:o}",
+        "file", ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets,
+        "order", mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
         counts->low[1], counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume",
         counts->volume, "shortest_edge", counts->shortest, "longest_edge", counts->longest, "quality",
         quality_json(counts), "regions", regions, "boundaries", boundaries, "components",
         parts_json(counts->components), "coincident_vertices", (json_int_t)counts->coincident, "coincident_within",
-        counts->tolerance, "warnings", ost_json_warnings(mesh->ctx));
+        counts->tolerance, "cracked_faces", (json_int_t)counts->misfits.cracked, "misfit_faces",
+        (json_int_t)counts->misfits.faces, "warnings", ost_json_warnings(mesh->ctx));
     if (!root)
         return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", path);

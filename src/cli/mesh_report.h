@@ -4,6 +4,7 @@
 
 #include "mesh/components/component.h"
 #include "mesh/mesh_data.h"
+#include "mesh/misfit.h"
 
 enum { OST_QUALITY_BINS = 10 };
 
@@ -16,6 +17,7 @@ typedef struct OstMeshReport {
     OstGlobal bins[OST_QUALITY_BINS];
     OstGlobal coincident;
     double tolerance; /* within which they coincide */
+    OstMisfits misfits;
     double surface_faces;
     OstGlobal *region_tets; /* of each region */
     double *region_volume;

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "formats/mesh_formats.h"
+#include "formats/vtk/vtk.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
@@ -56,14 +57,23 @@ done:
     return status;
 }
 
-/* Gmsh calls versions of its format .msh1 to .msh41. */
+static size_t length_without_digits(const char *path, size_t length)
+{
+    while (length > 0 && isdigit((unsigned char)path[length - 1]))
+        length--;
+    return length;
+}
+
+/* Gmsh calls versions of its format .msh1 to .msh41; parts of an Exodus file end with .4.0 to .4.3. */
 static size_t length_without_version(const char *path)
 {
-    const size_t length = strlen(path);
-    size_t bare = length;
-    while (bare > 0 && isdigit((unsigned char)path[bare - 1]))
-        bare--;
-    return bare >= 4 && strncasecmp(path + bare - 4, ".msh", 4) == 0 ? bare : length;
+    const size_t length = strlen(path), bare = length_without_digits(path, length);
+    if (bare >= 4 && strncasecmp(path + bare - 4, ".msh", 4) == 0)
+        return bare;
+    if (bare == length || bare < 2 || path[bare - 1] != '.')
+        return length;
+    const size_t rest = length_without_digits(path, bare - 1);
+    return rest >= 2 && rest < bare - 1 && path[rest - 1] == '.' ? rest - 1 : length;
 }
 
 static int ends_with(const char *path, const char *ending)
@@ -117,15 +127,27 @@ int ost_mesh_file_reads(OstContext *ctx, const char *path, const char *sought)
     return stat(path, &a) == 0 && stat(sought, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
+/* Do all ranks read it? */
+static OstStatus is_parallel(OstContext *ctx, const OstMeshFormat *format, const char *path, int *parallel)
+{
+    int others = 0;
+    if (format->parallel)
+        OST_TRY(ost_vtk_hdf_has_others(ctx, path, &others));
+    *parallel = format->parallel && !others;
+    return OST_SUCCESS;
+}
+
 static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
+    int parallel = 0;
     *chunk = NULL;
     *materials = NULL;
     const OstMeshFormat *format = find_format(path);
     if (!format)
-        status = ost_mesh_file_check_name(ctx, path);
-    else if (format->parallel) {
+        return ost_mesh_file_check_name(ctx, path);
+    OST_TRY(is_parallel(ctx, format, path, &parallel));
+    if (parallel) {
         status = ost_agree(ctx, OST_NEW(ctx, materials, 1));
         OST_THEN(ost_vtkhdf_read(ctx, path, chunk));
     } else
@@ -165,7 +187,9 @@ static OstStatus read_field(OstContext *ctx, const char *path, const char *name,
     const OstMeshFormat *format = find_format(path);
     if (!format)
         return ost_mesh_file_check_name(ctx, path);
-    if (format->parallel)
+    int parallel = 0;
+    OST_TRY(is_parallel(ctx, format, path, &parallel));
+    if (parallel)
         return ost_vtkhdf_read_field(ctx, path, name, use, chunk);
     if (!format->read_field)
         return OST_RAISE(

@@ -12,8 +12,8 @@
 const OstMeshFormat ost_mesh_formats[] = {
     {".msh", 0, ost_msh_read, NULL, ost_msh_read_field},
     {".msh.gz", 0, ost_msh_read, NULL, ost_msh_read_field},
-    {".vtkhdf", 1, NULL, NULL, NULL},
-    {".hdf", 1, NULL, NULL, NULL}, /* a VTKHDF file as ParaView 5.11 knows it */
+    {".vtkhdf", 1, ost_vtk_read, NULL, ost_vtk_read_field},
+    {".hdf", 1, ost_vtk_read, NULL, ost_vtk_read_field}, /* a VTKHDF file as ParaView 5.11 knows it */
     {".vtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".vtk", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".inp", 0, ost_abaqus_read, NULL, NULL},
@@ -43,8 +43,10 @@ typedef enum {
     MESH_SOLID,
     MESH_SURFACE,
     BY_PARAVIEW,
+    BY_FILTER,
     BY_EXPORT,
-    IS_CASE
+    IS_CASE,
+    BESIDE
 } Way;
 
 /* Debian's python3-meshio has no command of its own. */
@@ -57,7 +59,9 @@ static const char *const way_words[] = {
     [MESH_SOLID] = "mesh it: gmsh -3 %s -o %.*s.msh",
     [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
     [BY_PARAVIEW] = "open %s in ParaView, and save it as %.*s.vtu (File, Save Data)",
+    [BY_FILTER] = "open %s in ParaView, apply Tetrahedralize, and save it as %.*s.vtu (File, Save Data)",
     [IS_CASE] = "is it a case? Then 'orthostat check %s' reads it, with its mesh",
+    [BESIDE] = "take the mesh that %s is a part of: %.*s.ele",
     [BY_EXPORT] = "export %s from its program as %.*s.inp (Abaqus) or .bdf (Nastran)",
 };
 
@@ -94,6 +98,8 @@ static const struct {
     {".p3d", "Plot3D", BY_PARAVIEW},
     {".geo", "Gmsh's model", MESH_SOLID},
     {".geo_unrolled", "Gmsh's model", MESH_SOLID},
+    {".face", "TetGen's faces alone", BESIDE},
+    {".edge", "TetGen's edges alone", BESIDE},
     {".step", "STEP", MESH_SOLID},
     {".stp", "STEP", MESH_SOLID},
     {".iges", "IGES", MESH_SOLID},
@@ -108,6 +114,9 @@ static const struct {
     {".pvtu", "VTK in pieces", BY_PARAVIEW},
     {".vtm", "VTK in blocks", BY_PARAVIEW},
     {".vtp", "VTK polygons", BY_PARAVIEW},
+    {".vti", "VTK images", BY_FILTER},
+    {".vts", "VTK's structured grids", BY_FILTER},
+    {".vtr", "VTK's rectilinear grids", BY_FILTER},
     {".pvd", "ParaView's list", BY_PARAVIEW},
     {".case", "EnSight", BY_PARAVIEW},
     {".foam", "OpenFOAM", BY_PARAVIEW},

@@ -7,7 +7,7 @@
 /* A format of mesh files, found by the ending of their names. Readers of serial ones are called on rank 0. */
 typedef struct OstMeshFormat {
     const char *ending;
-    int parallel; /* .vtkhdf, which all ranks read; the rest is NULL then */
+    int parallel; /* .vtkhdf, which all ranks read; the rest is for those of other programs */
     OstStatus (*read)(OstContext *ctx, const char *path, OstMeshChunk **chunk);
     OstStatus (*read_with_materials)(OstContext *ctx, const char *path, OstMeshChunk **chunk,
                                      OstFileMaterials **materials); /* instead; or NULL */

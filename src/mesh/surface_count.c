@@ -92,16 +92,13 @@ OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces)
 
 OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces)
 {
-    OstSurface *surface = NULL;
+    const OstSurface *surface = NULL;
     *faces = 0.0;
-    OstStatus status = ost_surface_create(mesh, NULL, &surface);
-    if (status != OST_SUCCESS)
-        return status;
+    OST_TRY(ost_mesh_surface(mesh, &surface));
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
         const OstGlobal corner[3] = {node[0], node[1], node[2]};
         *faces += ost_mesh_owns(mesh, 3, corner);
     }
-    ost_surface_destroy(&surface);
     return ost_sum(mesh->ctx, 1, faces);
 }

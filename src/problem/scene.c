@@ -324,6 +324,7 @@ static OstStatus create(const OstCase *c, const OstScene *coarse, OstMeshChunk *
         made->c = c;
         made->exact = coarse ? coarse->exact : NULL;
         status = fill(made, chunk);
+        OST_THEN(coarse ? OST_SUCCESS : ost_scene_check_fit(c, made->mesh));
     }
     if (status != OST_SUCCESS)
         ost_scene_destroy(&made);

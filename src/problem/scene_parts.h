@@ -35,6 +35,9 @@ OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
                                OstMesh **mesh, OstSceneMaterials *materials);
 
+/* Collective. Warns of neighbours that do not fit (mesh/misfit.h), unless they are tied; shapes have none. */
+OstStatus ost_scene_check_fit(const OstCase *c, const OstMesh *mesh);
+
 /* Local. The curved surface on which new nodes of the case's shape are placed. */
 OstShapeSurface ost_scene_surface(const OstCase *c);
 

@@ -101,3 +101,28 @@ for ranks in fewer((1, 2)):
 write("axes.txt", "1 0 0 0 1 0 0 0 1\n")
 done = run_bar("two.inp", "[1, 0, 0]", **how)
 check(done.exit_code == 2 and "expected 2" in done.errors, done.errors)
+
+# Two hexahedra with vertices of their own at their common face, numbered backwards in the second: merged they fit. Where one has
+# become four, vertices hang on the face of the other, and checks say so.
+def two_parts(name, across):
+    nodes, lines = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)], ["*ELEMENT, TYPE=C3D8", "1, 1, 5, 7, 3, 2, 6, 8, 4"]
+    steps = range(across + 1)
+    last = 8 + 2 * len(steps)**2
+    nodes += [(1 + a, b / across, c / across) for a in (1, 0) for b in reversed(steps) for c in reversed(steps)]
+    for b in range(across):
+        for c in range(across):
+            corners = [(a, b + j, c + k) for k in (0, 1) for a, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            lines.append(", ".join(map(str, [2 + b * across + c] + [last - (a * len(steps) + j) * len(steps) - k for a, j, k in corners])))
+    return write(name, "\n".join(["*NODE"] + [f"{n + 1}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(nodes)] + lines + [""]))
+
+
+counts = json.loads(run("mesh", two_parts("pair.inp", 1), "--merge", "1e-6", "--json", "-", folder=folder).output)
+check(counts["surface_faces"] == 20 and counts["misfit_faces"] == counts["cracked_faces"] == 0, f"{counts}")
+two_parts("hanging.inp", 2)
+write("hanging.yaml", """mesh: {file: hanging.inp, merge: 1e-6}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
+constraints: [{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}]
+""")
+for ranks in fewer((1, 2)):
+    done = run("check", "hanging.yaml", ranks=ranks, folder=folder)
+    check("10 faces of tets lie on faces of others without fitting them, from (1, 0, 0) to (1, 1, 1)" in done.errors, done.errors)

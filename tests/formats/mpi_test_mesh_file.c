@@ -170,7 +170,7 @@ static void wrong_tables_are_refused(void **state)
                  {"1 2 3 4\n", "table.txt:1: '4' follows 3 numbers, expected the end of the line"},
                  {"1 2 inf\n", "table.txt:1: number 3 of 3 is 'inf', expected a finite number"},
                  {"1 2 z\n", "number 3 of 3 is 'z', expected a number"},
-                 {"", "table.txt:0: the file ends after 0 lines"}};
+                 {"\n", "table.txt:1: the file ends after 0 lines"}};
     const OstGlobal line = ost_rank(ctx) + 1;
     double values[3];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)

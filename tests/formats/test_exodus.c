@@ -20,6 +20,8 @@ static const struct {
     {"exodus-linear-offset.gen", 23, 4, "left", "volume-20", "clamp", 1, 1},
     {"exodus-linear-netcdf4.g", 23, 4, "left", "volume-20", "clamp", 1, 2},
     {"exodus-quadratic-64bit.ex2", 113, 4, "left", "volume-20", "clamp", 1, 2},
+    {"parts.e.4.0", 23, 4, "left", "volume-20", "clamp", 1, 2}, /* of four files, any of them or the whole */
+    {"parts.e", 23, 4, "left", "volume-20", "clamp", 1, 2},
 };
 enum { FILES = sizeof files / sizeof *files, TETS = 48 };
 

@@ -542,7 +542,8 @@ static void what_is_no_mesh_is_refused(void **state)
     (void)state;
     refuse_text("Point(1) = {0, 0, 0};\n", "text.msh:1: 'Point(1) = {0, 0, 0};' found, expected $MeshFormat: not a");
     refuse_text("$Nodes\n1\n", "text.msh:1: '$Nodes' found, expected $MeshFormat: not a Gmsh mesh");
-    refuse_text("", "not a Gmsh mesh");
+    refuse_text("", "is empty");
+    refuse_text("\n", "not a Gmsh mesh");
 }
 
 static void wrong_files_are_refused_where_they_are_wrong(void **state)

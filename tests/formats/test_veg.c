@@ -277,7 +277,8 @@ static void endless_and_missing_includes_are_refused(void **state)
 static void wrong_meshes_are_refused_where_they_are_wrong(void **state)
 {
     (void)state;
-    refuse("", "bad.veg:0: the file ends without *VERTICES");
+    refuse("", "bad.veg: is empty");
+    refuse("# nothing\n", "bad.veg:1: the file ends without *VERTICES");
     refuse(VERTICES, "bad.veg:7: the file ends without *ELEMENTS");
     refuse("1 2 3\n", "bad.veg:1: '1 2 3' found outside of a section");
     refuse(MESH "3 1 2 3 5\n",

@@ -230,21 +230,12 @@ static OstStatus add_set(OstCells *cells, const OstCellSet *set, OstCellKind tet
     return add_cells(cells, set, quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3);
 }
 
-/* Triangles must be those of the tets' order; lines of another order bound nothing. */
-static OstStatus check_order(OstCells *cells, OstCellKind tets)
+/* Lines of another order than the tets' bound nothing. */
+static void leave_out_lines(OstCells *cells, int quadratic)
 {
-    const int quadratic = tets == OST_CELL_TET10;
-    const OstCellList *triangles = &cells->list[quadratic ? OST_CELL_TRIANGLE3 : OST_CELL_TRIANGLE6];
     const OstCellList *lines = &cells->list[quadratic ? OST_CELL_LINE2 : OST_CELL_LINE3];
     for (OstLocal i = 0; i < lines->count; i++)
         ost_cells_skip(cells, 1, "a line of another order than the tets'");
-    if (triangles->count == 0)
-        return OST_SUCCESS;
-    return OST_RAISE(
-        cells->ctx, OST_INVALID_INPUT,
-        "%s: holds %d triangles of %d nodes beside tets of %d nodes, expected %d nodes; mesh the whole body "
-        "in one order",
-        cells->path, triangles->count, quadratic ? 3 : 6, quadratic ? 10 : 4, quadratic ? 6 : 3);
 }
 
 /* Faces first: of names that are given twice, theirs stay. */
@@ -253,7 +244,7 @@ OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets)
     const int quadratic = tets == OST_CELL_TET10;
     const OstCellKind kind[3] = {OST_CELL_POINT, quadratic ? OST_CELL_LINE3 : OST_CELL_LINE2,
                                  quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3};
-    OST_TRY(check_order(cells, tets));
+    leave_out_lines(cells, quadratic);
     OST_TRY(ost_cells_cover_faces(cells, tets));
     OST_TRY(OST_NEW(cells->ctx, &cells->chunk->boundaries, 0));
     for (int dimension = 2; dimension >= 0; dimension--) {

@@ -8,7 +8,6 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 enum { FIRST_ROOM = 64 };
 
@@ -118,9 +117,11 @@ OstStatus ost_cells_name(OstCells *cells, int dimension, OstGlobal group, const 
 
 int ost_cells_find_set(const OstCells *cells, OstSetKind kind, const char *name)
 {
-    for (int s = 0; s < cells->set_count; s++)
-        if (cells->set[s].kind == kind && strcasecmp(cells->set[s].name, name) == 0)
+    for (int s = 0; s < cells->set_count; s++) {
+        const char *other = cells->set[s].name;
+        if (cells->set[s].kind == kind && (cells->same_names ? cells->same_names(other, name) : !strcmp(other, name)))
             return s;
+    }
     return -1;
 }
 

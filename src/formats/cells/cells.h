@@ -82,6 +82,7 @@ typedef struct OstCells {
     OstCellList list[OST_CELL_KINDS];
     int name_count;
     OstCellName *name;
+    int (*same_names)(const char *a, const char *b); /* of sets; NULL: to the letter */
     int set_count;
     OstCellSet *set;
     OstGlobal solids, others; /* that are not read; that are neither solids, faces, lines nor points */
@@ -105,7 +106,7 @@ void ost_cells_skip(OstCells *cells, int dimension, const char *shape);
 /* Local. Names a group of cells of a dimension, or (-1) of any. */
 OstStatus ost_cells_name(OstCells *cells, int dimension, OstGlobal group, const char *name);
 
-/* Local. The set of a name (capitals are the same as small letters): a new one if there is none; or -1. Sets hold what
+/* Local. The set of a name: a new one if there is none; or -1. Sets hold what
  * is put into them, perhaps before the file defines it. */
 OstStatus ost_cells_set(OstCells *cells, OstSetKind kind, const char *name, int *set);
 int ost_cells_find_set(const OstCells *cells, OstSetKind kind, const char *name);
@@ -116,6 +117,10 @@ OstStatus ost_cells_put(OstCells *cells, int set, OstGlobal item);
 void ost_cells_keep_once(OstCells *cells, int set);
 OstStatus ost_cells_put_set(OstCells *cells, int set, int from);
 OstStatus ost_cells_put_range(OstCells *cells, int set, OstGlobal first, OstGlobal last, OstGlobal step);
+
+/* Local. Puts the nodes of a quadratic kind that are no vertices, which a format has in no known order, where
+ * formats/cells wants them: by where they lie in all cells together. Labels of nodes are 1, 2, 3, ... */
+OstStatus ost_cells_order_middles(OstCells *cells, OstCellKind kind);
 
 /* Local. Makes the chunk: other solids become tets; sets and groups of tets become regions (a tet in several goes to
  * the one with the fewest), those of triangles, lines, points, nodes and faces become boundaries; what is no part of

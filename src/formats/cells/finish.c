@@ -28,6 +28,23 @@ static void leave_out_quads(OstCells *cells)
     }
 }
 
+/* Faces must be of the solids' order. */
+static OstStatus check_faces(const OstCells *cells, int quadratic)
+{
+    const OstCellList *list = cells->list;
+    const int split = ost_cells_must_split(cells); /* else quadrilaterals are left out */
+    const OstLocal triangles = list[quadratic ? OST_CELL_TRIANGLE3 : OST_CELL_TRIANGLE6].count;
+    const OstLocal quads = !split      ? 0
+                           : quadratic ? list[OST_CELL_QUAD4].count
+                                       : list[OST_CELL_QUAD8].count + list[OST_CELL_QUAD9].count;
+    if (triangles == 0 && quads == 0)
+        return OST_SUCCESS;
+    return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
+                     "%s: holds %d triangles and %d quadrilaterals %s nodes in the middle of their edges beside solids "
+                     "%s them; mesh the whole body in one order, or leave these shells out",
+                     cells->path, triangles, quads, quadratic ? "without" : "with", quadratic ? "with" : "without");
+}
+
 static OstStatus check_kinds(const OstCells *cells)
 {
     OstGlobal linear = 0, quadratic = 0;
@@ -59,7 +76,7 @@ static OstStatus check_kinds(const OstCells *cells)
             "the volume with tets, as gmsh -3 does",
             cells->path, (OstGlobal)cells->list[OST_CELL_TRIANGLE3].count + cells->list[OST_CELL_TRIANGLE6].count,
             count_quads(cells), (OstGlobal)cells->chunk->node_count);
-    return OST_SUCCESS;
+    return check_faces(cells, quadratic > 0);
 }
 
 static OstStatus index_nodes(OstCells *cells)

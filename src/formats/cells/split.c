@@ -50,13 +50,22 @@ static int is_among(int count, const OstGlobal *nodes, OstGlobal node)
     return 0;
 }
 
-/* The place of the smallest label. */
-static int smallest(const OstMeshChunk *chunk, int count, const OstGlobal *nodes)
+/* Vertices are ordered along a direction in which hardly two corners of a cell are level, so that cells fit that have
+ * vertices of their own at the same places, too: once they are merged, or on the sides of a crack. */
+static const double order_direction[3] = {1.0, 0.41421356237309505, 0.73205080756887729};
+
+/* The place of the first vertex in that order; of level ones, of the smallest label. */
+static int first_of(const OstMeshChunk *chunk, int count, const OstGlobal *nodes)
 {
     int place = 0;
-    for (int i = 1; i < count; i++)
-        if (chunk->node_label[nodes[i]] < chunk->node_label[nodes[place]])
-            place = i;
+    double least = HUGE_VAL;
+    for (int i = 0; i < count; i++) {
+        const double height = ost_dot3(order_direction, chunk->coordinates + 3 * (size_t)nodes[i]);
+        if (!(height < least) && !(height == least && chunk->node_label[nodes[i]] < chunk->node_label[nodes[place]]))
+            continue;
+        place = i;
+        least = height;
+    }
     return place;
 }
 
@@ -72,7 +81,7 @@ static void add_face(const OstMeshChunk *chunk, int count, const OstGlobal corne
 {
     if (count < 3)
         return;
-    const int s = count == 4 ? smallest(chunk, 4, corner) : 0;
+    const int s = count == 4 ? first_of(chunk, 4, corner) : 0;
     add_piece(corner[s], corner[(s + 1) % count], corner[(s + 2) % count], apex, pieces);
     if (count == 4)
         add_piece(corner[s], corner[(s + 2) % 4], corner[(s + 3) % 4], apex, pieces);
@@ -128,12 +137,12 @@ static void turn_wedge(const OstMeshChunk *chunk, OstPieces *tets)
     }
 }
 
-/* Tets from the smallest vertex to the triangles of the faces that it is not on: their faces on the others then have
+/* Tets from the first vertex to the triangles of the faces that it is not on: their faces on the others then have
  * their diagonals through it too. */
 void ost_split_vertices(const OstMeshChunk *chunk, OstCellKind kind, const OstGlobal *nodes, OstPieces *pieces)
 {
     const OstCellShape *shape = ost_cell_shape(kind);
-    const int solid = kind < OST_CELL_QUAD4, apex = smallest(chunk, shape->vertices, nodes);
+    const int solid = kind < OST_CELL_QUAD4, apex = first_of(chunk, shape->vertices, nodes);
     OstGlobal corner[4];
     pieces->count = 0;
     for (int f = 0; f < shape->faces; f++) {

@@ -5,10 +5,11 @@
 #include "core/index_map.h"
 #include "formats/cells/cells.h"
 
-/* Hexahedra, wedges and pyramids become tets, quadrilaterals triangles. The diagonal of a face goes through its vertex
- * with the smallest label, so that neighbours of any kind agree (J. Dompierre, P. Labbé, M.-G. Vallet and R. Camarero,
- * How to subdivide pyramids, prisms and hexahedra into tetrahedra, 8th International Meshing Roundtable, 1999). A cell
- * in which nodes repeat, such as a hexahedron that was collapsed into a wedge, has the faces that are left. */
+/* Hexahedra, wedges and pyramids become tets, quadrilaterals triangles. The diagonal of a face goes through the
+ * vertex that is first along a direction, so that neighbours of any kind agree (J. Dompierre, P. Labbé, M.-G. Vallet
+ * and R. Camarero, How to subdivide pyramids, prisms and hexahedra into tetrahedra, 8th International Meshing
+ * Roundtable, 1999). A cell in which nodes repeat, such as a hexahedron that was collapsed into a wedge, has the faces
+ * that are left. */
 
 typedef struct OstSplit {
     OstMeshChunk *chunk; /* whose nodes the cells have; it gets those in the middle of diagonals */

@@ -73,7 +73,7 @@ const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter)
 }
 
 /* Copies without blanks and quotes at the ends. */
-static void copy_word(const char *start, const char *end, int capitals, char word[OST_INP_WORD])
+static void copy_word(const char *start, const char *end, char word[OST_INP_WORD])
 {
     size_t length = 0;
     while (start < end && strchr(" \t\"", *start))
@@ -81,18 +81,37 @@ static void copy_word(const char *start, const char *end, int capitals, char wor
     while (end > start && strchr(" \t\"", end[-1]))
         end--;
     for (; start < end && length + 1 < OST_INP_WORD; start++)
-        word[length++] = capitals ? (char)toupper((unsigned char)*start) : *start;
+        word[length++] = *start;
     word[length] = '\0';
+}
+
+/* Copies in capitals, without blanks. */
+static void copy_name(const char *start, const char *end, char word[OST_INP_WORD])
+{
+    size_t length = 0;
+    for (; start < end && length + 1 < OST_INP_WORD; start++)
+        if (*start != ' ' && *start != '\t')
+            word[length++] = (char)toupper((unsigned char)*start);
+    word[length] = '\0';
+}
+
+/* The comma that ends a word: none within quotes. */
+static const char *word_end(const char *text)
+{
+    for (int quoted = 0; *text && (quoted || *text != ','); text++)
+        quoted ^= *text == '"';
+    return text;
 }
 
 static void add_parameters(const char *text, OstInpKeyword *keyword)
 {
     while (*text && keyword->count < OST_INP_PARAMETERS) {
-        const char *end = text + strcspn(text, ",");
+        const char *end = word_end(text);
         const char *equals = memchr(text, '=', (size_t)(end - text));
         const int p = keyword->count;
-        copy_word(text, equals ? equals : end, 1, keyword->parameter[p]);
-        copy_word(equals ? equals + 1 : end, end, 0, keyword->value[p]);
+        copy_name(text, equals ? equals : end, keyword->parameter[p]);
+        copy_word(equals ? equals + 1 : end, end, keyword->value[p]);
+        keyword->quoted[p] = equals && memchr(equals, '"', (size_t)(end - equals)) != NULL;
         keyword->count += keyword->parameter[p][0] != '\0';
         text = *end ? end + 1 : end;
     }
@@ -109,7 +128,7 @@ OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword)
     const char *text = inp->lines->text + strspn(inp->lines->text, " \t") + 1;
     const char *end = text + strcspn(text, ",");
     memset(keyword, 0, sizeof *keyword);
-    copy_word(text, end, 1, keyword->name);
+    copy_name(text, end, keyword->name);
     add_parameters(*end ? end + 1 : end, keyword);
     while (goes_on(inp->lines)) {
         int found = 0;
@@ -119,6 +138,58 @@ OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword)
         add_parameters(inp->lines->text, keyword);
     }
     return OST_SUCCESS;
+}
+
+/* --- names of sets --- */
+
+/* A name in quotes keeps its blanks, and its small letters: it begins with its quote while the file is read. */
+static int same_names(const char *a, const char *b)
+{
+    const int quoted = (a[0] == '"') + (b[0] == '"');
+    if (quoted != 1)
+        return quoted ? strcmp(a, b) == 0 : strcasecmp(a, b) == 0;
+    const char *exact = a[0] == '"' ? a + 1 : b + 1, *other = a[0] == '"' ? b : a;
+    while (*exact && *exact == (char)toupper((unsigned char)*other)) {
+        exact++;
+        other++;
+    }
+    return *exact == *other;
+}
+
+const char *ost_inp_set_name(const OstInpKeyword *keyword, const char *parameter, char name[OST_INP_WORD])
+{
+    for (int p = 0; p < keyword->count; p++)
+        if (strcmp(keyword->parameter[p], parameter) == 0) {
+            snprintf(name, OST_INP_WORD, "%s%.*s", keyword->quoted[p] ? "\"" : "", OST_INP_WORD - 2, keyword->value[p]);
+            return name;
+        }
+    return NULL;
+}
+
+void ost_inp_word(OstLineReader *lines, char word[OST_INP_WORD])
+{
+    size_t length = 0;
+    int quoted = 0;
+    word[0] = '\0';
+    if (ost_lines_ended(lines))
+        return;
+    const char *text = lines->next, *end = text;
+    while (*end && (quoted || !strchr(" \t,", *end)))
+        quoted ^= *end++ == '"';
+    if (memchr(text, '"', (size_t)(end - text)))
+        word[length++] = '"';
+    for (; text < end && length + 1 < OST_INP_WORD; text++)
+        if (*text != '"')
+            word[length++] = *text;
+    word[length] = '\0';
+    lines->next = end;
+}
+
+static void drop_quotes(OstCells *cells)
+{
+    for (int s = 0; s < cells->set_count; s++)
+        if (cells->set[s].name[0] == '"')
+            memmove(cells->set[s].name, cells->set[s].name + 1, strlen(cells->set[s].name));
 }
 
 /* --- nodes and elements --- */
@@ -156,7 +227,11 @@ static OstStatus read_element(OstInp *inp)
     if (inp->filled < width)
         return OST_SUCCESS;
     inp->filled = 0;
-    OST_TRY(ost_lines_finish(inp->lines, "the nodes of an element"));
+    if (!ost_lines_ended(inp->lines))
+        return OST_RAISE_LINE(inp->lines,
+                              "element %" PRId64 " has more nodes than the %d of %s (in Gmsh: "
+                              "Mesh.SecondOrderIncomplete = 1)",
+                              inp->element[0], width - 1, inp->type);
     if (inp->kind == OST_CELL_HEX27)
         order_c3d27(inp->element + 1);
     OST_TRY(ost_cells_add(&inp->cells, inp->kind, inp->element[0], OST_NO_GROUP, inp->element + 1));
@@ -165,7 +240,8 @@ static OstStatus read_element(OstInp *inp)
 
 static OstStatus begin_nodes(OstInp *inp, const OstInpKeyword *keyword)
 {
-    const char *set = ost_inp_value(keyword, "NSET"), *system = ost_inp_value(keyword, "SYSTEM");
+    char name[OST_INP_WORD];
+    const char *set = ost_inp_set_name(keyword, "NSET", name), *system = ost_inp_value(keyword, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
         return OST_RAISE_LINE(inp->lines, "nodes in the coordinate system '%s'; only rectangular ones are read",
                               system);
@@ -175,7 +251,8 @@ static OstStatus begin_nodes(OstInp *inp, const OstInpKeyword *keyword)
 
 static OstStatus begin_elements(OstInp *inp, const OstInpKeyword *keyword)
 {
-    const char *set = ost_inp_value(keyword, "ELSET"), *type = ost_inp_value(keyword, "TYPE");
+    char name[OST_INP_WORD];
+    const char *set = ost_inp_set_name(keyword, "ELSET", name), *type = ost_inp_value(keyword, "TYPE");
     if (!type)
         return OST_RAISE_LINE(inp->lines, "*ELEMENT without TYPE, such as *ELEMENT, TYPE=C3D4");
     find_type(inp, type);
@@ -183,16 +260,36 @@ static OstStatus begin_elements(OstInp *inp, const OstInpKeyword *keyword)
     return set ? ost_cells_set(&inp->cells, OST_SET_OF_CELLS, set, &inp->set) : OST_SUCCESS;
 }
 
+/* Keywords that make nodes or elements of others, which are not read. */
+static int generates(const char *name)
+{
+    static const char *const words[] = {
+        "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRICMODELGENERATION"};
+    for (size_t w = 0; w < sizeof words / sizeof *words; w++)
+        if (strcmp(name, words[w]) == 0)
+            return 1;
+    return 0;
+}
+
 /* --- parts --- */
+
+static const char without_parts[] = "each has its own numbers. Write the model without parts and assemblies (in CAE: "
+                                    "model attributes, 'Do not use parts "
+                                    "and assemblies in input files')";
+
+static OstStatus begin_part(OstInp *inp)
+{
+    return ++inp->parts > 1 && inp->cells.chunk->node_count > 0
+               ? OST_RAISE_LINE(inp->lines, "a second part; %s", without_parts)
+               : OST_SUCCESS;
+}
 
 static OstStatus begin_instance(OstInp *inp)
 {
     inp->block = OST_INP_INSTANCE;
     inp->instance_lines = 0;
     if (++inp->instances > 1)
-        return OST_RAISE_LINE(
-            inp->lines, "a second instance; each has its own numbers. Write the model without parts and "
-                        "assemblies (in CAE: model attributes, 'Do not use parts and assemblies in input files')");
+        return OST_RAISE_LINE(inp->lines, "a second instance; %s", without_parts);
     return OST_SUCCESS;
 }
 
@@ -237,7 +334,8 @@ static OstStatus include(OstInp *inp, const OstInpKeyword *keyword, int depth)
 
 static OstStatus mark_section(OstInp *inp, const OstInpKeyword *keyword)
 {
-    const char *name = ost_inp_value(keyword, "ELSET");
+    char text[OST_INP_WORD];
+    const char *name = ost_inp_set_name(keyword, "ELSET", text);
     int set = -1;
     if (!name)
         return OST_SUCCESS;
@@ -265,8 +363,17 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
         return ost_inp_begin_set(inp, keyword, name[0] == 'N' ? OST_SET_OF_NODES : OST_SET_OF_CELLS);
     if (strcmp(name, "SURFACE") == 0)
         return ost_inp_begin_surface(inp, keyword);
-    if (strcmp(name, "SOLID SECTION") == 0)
+    if (strcmp(name, "SOLIDSECTION") == 0)
         return mark_section(inp, keyword);
+    if (generates(name))
+        return OST_RAISE_LINE(inp->lines,
+                              "*%s makes nodes or elements of others, which is not read; write the mesh with all of "
+                              "them, as CAE does",
+                              name);
+    if (strcmp(name, "SYSTEM") == 0)
+        inp->block = OST_INP_SYSTEM;
+    if (strcmp(name, "PART") == 0)
+        return begin_part(inp);
     return strcmp(name, "INSTANCE") == 0 ? begin_instance(inp) : OST_SUCCESS;
 }
 
@@ -286,6 +393,10 @@ static OstStatus read_data_line(OstInp *inp)
         return ost_inp_surface_line(inp);
     case OST_INP_INSTANCE:
         return read_instance_line(inp);
+    case OST_INP_SYSTEM:
+        return OST_RAISE_LINE(inp->lines,
+                              "*SYSTEM turns or shifts the nodes after it, which is not read; write them in "
+                              "the global system, as CAE does");
     case OST_INP_NOTHING:
         break;
     }
@@ -331,6 +442,7 @@ static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)
     ost_lines_close(&lines);
     OST_TRY(status);
     choose_regions(inp);
+    drop_quotes(&inp->cells);
     for (size_t n = 0; n < (size_t)inp->cells.chunk->node_count; n++)
         for (size_t d = 0; d < 3; d++)
             inp->cells.chunk->coordinates[3 * n + d] += inp->shift[d];
@@ -341,6 +453,7 @@ OstStatus ost_abaqus_read(OstContext *ctx, const char *path, OstMeshChunk **chun
 {
     OstInp inp = {.ctx = ctx, .set = -1};
     OstStatus status = ost_cells_open(ctx, path, &inp.cells);
+    inp.cells.same_names = same_names;
     OST_THEN(read_file(&inp, path, chunk));
     ost_cells_close(&inp.cells);
     return status;

@@ -13,7 +13,8 @@ typedef enum {
     OST_INP_SKIPPED,
     OST_INP_SET,
     OST_INP_SURFACE,
-    OST_INP_INSTANCE
+    OST_INP_INSTANCE,
+    OST_INP_SYSTEM
 } OstInpBlock;
 
 enum { OST_INP_WORD = 128, OST_INP_PARAMETERS = 16 };
@@ -24,6 +25,7 @@ typedef struct OstInpKeyword {
     int count;
     char parameter[OST_INP_PARAMETERS][OST_INP_WORD];
     char value[OST_INP_PARAMETERS][OST_INP_WORD];
+    int quoted[OST_INP_PARAMETERS]; /* had the value quotes? */
 } OstInpKeyword;
 
 /* An .inp file while it is read. */
@@ -41,7 +43,7 @@ typedef struct OstInp {
     const char *shape; /* of elements that are skipped */
     char type[OST_INP_WORD];
     int dimension;
-    int instances, instance_lines;
+    int parts, instances, instance_lines;
     double shift[3]; /* of the instance */
     int sections;    /* *SOLID SECTION found? */
     OstGlobal left_out;
@@ -51,6 +53,11 @@ typedef struct OstInp {
 OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword);
 /* The value of a parameter: "" for one without; NULL if it is not there. */
 const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter);
+
+/* Local. The name of a set or surface, as a parameter or as the line's next word: with a quote before it if it is in
+ * quotes, "" at the line's end. Returns `name`, or NULL if the parameter is not there. */
+const char *ost_inp_set_name(const OstInpKeyword *keyword, const char *parameter, char name[OST_INP_WORD]);
+void ost_inp_word(OstLineReader *lines, char word[OST_INP_WORD]);
 
 /* Local. Begin the blocks of sets and surfaces; read one data line of them. */
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind);

@@ -1,18 +1,61 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/number_set.h"
 #include "formats/exchange/abaqus.h"
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 /* Sets and surfaces of Abaqus's and CalculiX's input. */
 
+/* A set may come with its instance: Part-1-1.TOP. */
+static int find_set(const OstInp *inp, OstSetKind kind, const char *word)
+{
+    char inner[OST_INP_WORD];
+    const char *dot = strrchr(word, '.');
+    const int found = ost_cells_find_set(&inp->cells, kind, word);
+    if (found >= 0 || !dot)
+        return found;
+    snprintf(inner, sizeof inner, "%s%s", word[0] == '"' ? "\"" : "", dot + 1);
+    return ost_cells_find_set(&inp->cells, kind, inner);
+}
+
+/* The nodes of the elements of a set. */
+static OstStatus put_nodes_of(OstInp *inp, int from)
+{
+    OstCells *cells = &inp->cells;
+    ost_cells_keep_once(cells, from);
+    const OstCellSet *set = &cells->set[from];
+    for (int k = 0; k < OST_CELL_KINDS && set->count > 0; k++) {
+        const OstCellList *list = &cells->list[k];
+        const size_t width = (size_t)ost_cell_facts[k].nodes;
+        for (size_t i = 0; i < (size_t)list->count; i++)
+            for (size_t n = 0; n < width && ost_numbers_find(set->count, set->item, list->label[i]) >= 0; n++)
+                OST_TRY(ost_cells_put(cells, inp->set, list->nodes[i * width + n]));
+    }
+    ost_cells_keep_once(cells, inp->set);
+    return OST_SUCCESS;
+}
+
+/* *NSET, NSET=..., ELSET=... */
+static OstStatus take_elements(OstInp *inp, const OstInpKeyword *keyword)
+{
+    char name[OST_INP_WORD];
+    if (!ost_inp_set_name(keyword, "ELSET", name))
+        return OST_SUCCESS;
+    const int from = find_set(inp, OST_SET_OF_CELLS, name);
+    return from >= 0 ? put_nodes_of(inp, from)
+                     : OST_RAISE_LINE(inp->lines, "there is no element set '%s' before this line", name);
+}
+
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind)
 {
-    const char *name = ost_inp_value(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET");
+    char text[OST_INP_WORD];
+    const char *name = ost_inp_set_name(keyword, kind == OST_SET_OF_NODES ? "NSET" : "ELSET", text);
     if (!name || !name[0])
         return OST_RAISE_LINE(inp->lines, "*%s without its name, such as *%s, %s=TOP", keyword->name, keyword->name,
                               keyword->name);
@@ -22,7 +65,7 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
     /* CAE keeps the tets of a surface in sets of its own. */
     if (ost_inp_value(keyword, "INTERNAL"))
         inp->cells.set[inp->set].is_region = 0;
-    return OST_SUCCESS;
+    return kind == OST_SET_OF_NODES ? take_elements(inp, keyword) : OST_SUCCESS;
 }
 
 static OstStatus read_range(OstInp *inp)
@@ -43,7 +86,7 @@ static OstStatus read_range(OstInp *inp)
 static OstStatus put_word(OstInp *inp, const char *word)
 {
     const OstSetKind kind = inp->cells.set[inp->set].kind;
-    const int from = ost_cells_find_set(&inp->cells, kind, word);
+    const int from = find_set(inp, kind, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
@@ -61,7 +104,7 @@ OstStatus ost_inp_set_line(OstInp *inp)
     if (inp->generate)
         return read_range(inp);
     while (!ost_lines_ended(inp->lines)) {
-        ost_lines_word(inp->lines, word, sizeof word);
+        ost_inp_word(inp->lines, word);
         OST_TRY(put_word(inp, word));
     }
     return OST_SUCCESS;
@@ -69,7 +112,8 @@ OstStatus ost_inp_set_line(OstInp *inp)
 
 OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
 {
-    const char *name = ost_inp_value(keyword, "NAME"), *type = ost_inp_value(keyword, "TYPE");
+    char text[OST_INP_WORD];
+    const char *name = ost_inp_set_name(keyword, "NAME", text), *type = ost_inp_value(keyword, "TYPE");
     const int of_nodes = type && strcasecmp(type, "NODE") == 0;
     if (!name || !name[0])
         return OST_RAISE_LINE(inp->lines, "*SURFACE without its name, such as *SURFACE, NAME=TOP");
@@ -101,7 +145,7 @@ static OstStatus put_face(OstInp *inp, OstGlobal label, int side)
 /* The faces of an element, or of all of a set. */
 static OstStatus put_faces(OstInp *inp, const char *word, int side)
 {
-    const int from = ost_cells_find_set(&inp->cells, OST_SET_OF_CELLS, word);
+    const int from = find_set(inp, OST_SET_OF_CELLS, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
@@ -121,8 +165,8 @@ static OstStatus put_faces(OstInp *inp, const char *word, int side)
 OstStatus ost_inp_surface_line(OstInp *inp)
 {
     char word[OST_INP_WORD], face[OST_INP_WORD];
-    ost_lines_word(inp->lines, word, sizeof word);
-    ost_lines_word(inp->lines, face, sizeof face);
+    ost_inp_word(inp->lines, word);
+    ost_inp_word(inp->lines, face);
     if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
         return put_shells(inp, word);
     if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '6' && face[2] == '\0')

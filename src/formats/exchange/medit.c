@@ -13,10 +13,10 @@
 
 typedef struct Keyword {
     const char *word;
-    int code;         /* in bytes */
-    OstCellKind kind; /* OST_CELL_KINDS: of no kind that is read */
-    int numbers;      /* integers of an item, its reference among them */
-    int dimension;    /* of a shape; -1: no shape */
+    int code; /* in bytes */
+    OstCellKind kind;
+    int numbers;   /* integers of an item, its reference among them */
+    int dimension; /* of a shape; -1: no shape */
 } Keyword;
 
 /* Quadratic shapes follow linear ones. */
@@ -24,11 +24,11 @@ static const Keyword keywords[] = {
     {"Edges", 5, OST_CELL_LINE2, 3, 1},          {"EdgesP2", 25, OST_CELL_LINE3, 4, 1},
     {"Triangles", 6, OST_CELL_TRIANGLE3, 4, 2},  {"TrianglesP2", 24, OST_CELL_TRIANGLE6, 7, 2},
     {"Tetrahedra", 8, OST_CELL_TET4, 5, 3},      {"TetrahedraP2", 30, OST_CELL_TET10, 11, 3},
-    {"Quadrilaterals", 7, OST_CELL_QUAD4, 5, 2}, {"QuadrilateralsQ2", 27, OST_CELL_KINDS, 10, 2},
-    {"Hexahedra", 10, OST_CELL_HEX8, 9, 3},      {"HexahedraQ2", 33, OST_CELL_KINDS, 28, 3},
+    {"Quadrilaterals", 7, OST_CELL_QUAD4, 5, 2}, {"QuadrilateralsQ2", 27, OST_CELL_QUAD9, 10, 2},
+    {"Hexahedra", 10, OST_CELL_HEX8, 9, 3},      {"HexahedraQ2", 33, OST_CELL_HEX27, 28, 3},
     {"Hexaedra", 0, OST_CELL_HEX8, 9, 3},        {"Prisms", 9, OST_CELL_WEDGE6, 7, 3},
-    {"Pentahedra", 0, OST_CELL_WEDGE6, 7, 3},    {"PrismsP2", 86, OST_CELL_KINDS, 19, 3},
-    {"Pyramids", 49, OST_CELL_PYRAMID5, 6, 3},   {"PyramidsP2", 87, OST_CELL_KINDS, 15, 3},
+    {"Pentahedra", 0, OST_CELL_WEDGE6, 7, 3},    {"PrismsP2", 86, OST_CELL_WEDGE18, 19, 3},
+    {"Pyramids", 49, OST_CELL_PYRAMID5, 6, 3},   {"PyramidsP2", 87, OST_CELL_PYRAMID14, 15, 3},
 };
 
 /* What a line of Gmsh's holds, by its length; the code is that of Gmsh's type, negative. */
@@ -44,6 +44,7 @@ typedef struct Medit {
     OstCells cells;
     int version; /* 1: single precision; 3: long positions in bytes; 4: long numbers */
     int vertices;
+    unsigned unordered; /* kinds (bits) whose nodes may be in any order */
 } Medit;
 
 /* Comments go from # to the end of the line. */
@@ -152,17 +153,15 @@ static OstStatus read_cells(Medit *medit, const Keyword *keyword)
     keyword = quadratic_if_longer(medit, keyword);
     const OstMshCell *gmsh = keyword->code < 0 ? ost_msh_cell(-keyword->code) : NULL;
     const OstGlobal first = first_label(medit, keyword);
+    medit->unordered |= gmsh ? 0U : 1U << keyword->kind;
     for (OstGlobal i = 0; i < count; i++) {
         for (int k = 0; k < keyword->numbers; k++)
             OST_TRY(read_integer(medit, "a vertex or reference", &read[k]));
         const OstGlobal reference = read[keyword->numbers - 1];
         for (int k = 0; k + 1 < keyword->numbers; k++)
             numbers[k] = read[gmsh ? gmsh->place[k] : k];
-        if (keyword->kind == OST_CELL_KINDS)
-            ost_cells_skip(&medit->cells, keyword->dimension, keyword->word);
-        else
-            OST_TRY(ost_cells_add(&medit->cells, keyword->kind, first + i, reference == 0 ? OST_NO_GROUP : reference,
-                                  numbers));
+        OST_TRY(
+            ost_cells_add(&medit->cells, keyword->kind, first + i, reference == 0 ? OST_NO_GROUP : reference, numbers));
     }
     return OST_SUCCESS;
 }
@@ -283,12 +282,23 @@ static int is_bytes(const OstMshCursor *cursor)
     return cursor->end - cursor->bytes >= 4 && (cursor->bytes[0] == 1 || cursor->bytes[3] == 1);
 }
 
+/* The format leaves the order of middles to keywords that few programs write (HexahedraQ2Ordering). */
+static OstStatus order_middles(Medit *medit)
+{
+    static const OstCellKind kinds[] = {OST_CELL_HEX27, OST_CELL_WEDGE18, OST_CELL_PYRAMID14, OST_CELL_QUAD9};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (medit->unordered >> kinds[k] & 1U)
+            OST_TRY(ost_cells_order_middles(&medit->cells, kinds[k]));
+    return OST_SUCCESS;
+}
+
 OstStatus ost_medit_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     Medit medit = {.version = 2};
     OstStatus status = ost_cells_open(ctx, path, &medit.cells);
     OST_THEN(ost_msh_open(ctx, path, &medit.cursor));
     OST_THEN(is_bytes(&medit.cursor) ? read_bytes(&medit) : read_words(&medit));
+    OST_THEN(order_middles(&medit));
     OST_THEN(ost_cells_finish(&medit.cells, chunk));
     ost_msh_close(&medit.cursor);
     ost_cells_close(&medit.cells);

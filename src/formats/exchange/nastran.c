@@ -9,6 +9,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +19,7 @@
  * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
  * boundary, and so does each set of constraints. */
 
-enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 20 };
+enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 20, MOST_INCLUDES = 8 };
 
 typedef struct Placed {
     OstGlobal label, system;
@@ -35,6 +36,9 @@ typedef struct Nastran {
     OstNastranSystems systems;
     OstLocal placed, placed_room; /* nodes that wait for their coordinate system, which may stand behind them */
     Placed *place;
+    int depth;                /* of INCLUDE */
+    OstGlobal default_system; /* of GRDSET */
+    OstLocal in_default;      /* nodes that state none, so far */
 } Nastran;
 
 /* --- cards --- */
@@ -150,11 +154,13 @@ static OstStatus read_system(Nastran *nastran)
 
 static OstStatus read_grid(Nastran *nastran)
 {
-    OstGlobal label = 0, system = 0;
+    OstGlobal label = 0, system = nastran->default_system;
     double x[3] = {0.0};
     OST_TRY(take_integer(nastran, "the number of a node", 0, &label));
     if (field_of(nastran, 1)[0])
         OST_TRY(take_integer(nastran, "a coordinate system", 1, &system));
+    else
+        nastran->in_default++;
     OST_TRY(take_reals(nastran, "a coordinate", 2, 3, x));
     if (system == 0)
         return ost_cells_add_node(&nastran->cells, label, x);
@@ -164,6 +170,16 @@ static OstStatus read_grid(Nastran *nastran)
     }
     nastran->place[nastran->placed++] = (Placed){label, system, {x[0], x[1], x[2]}};
     return OST_SUCCESS;
+}
+
+/* What GRIDs have that state no coordinate system. */
+static OstStatus read_defaults(Nastran *nastran)
+{
+    if (field_of(nastran, 1)[0])
+        OST_TRY(take_integer(nastran, "a coordinate system", 1, &nastran->default_system));
+    return nastran->default_system == 0 || nastran->in_default == 0
+               ? OST_SUCCESS
+               : OST_RAISE_MSH(&nastran->cursor, "GRDSET follows GRIDs that it is for; put it before them");
 }
 
 static OstStatus place_nodes(Nastran *nastran)
@@ -285,6 +301,8 @@ static OstStatus end_card(Nastran *nastran)
     const char *name = nastran->name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);
+    if (strcmp(name, "GRDSET") == 0)
+        return read_defaults(nastran);
     if (strcmp(name, "CORD2R") == 0 || strcmp(name, "CORD2C") == 0 || strcmp(name, "CORD2S") == 0)
         return read_system(nastran);
     for (size_t k = 0; k < sizeof cards / sizeof *cards; k++)
@@ -326,18 +344,71 @@ static OstStatus read_comment(Nastran *nastran, const char *line, const char *en
     return name[0] ? ost_cells_name(&nastran->cells, -1, property, name) : OST_SUCCESS;
 }
 
+static OstStatus include(Nastran *nastran, const char *line, const char *end);
+
 static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
 {
     if (line == end)
         return OST_SUCCESS;
     if (*line == '$')
         return read_comment(nastran, line, end);
+    if (end - line > 7 && strncasecmp(line, "INCLUDE", 7) == 0)
+        return include(nastran, line, end);
     if (!strchr("+* ,\t", *line)) {
         OST_TRY(end_card(nastran));
         begin_card(nastran, line, end);
     } else if (!nastran->name[0])
         return OST_SUCCESS;
     return read_fields(nastran, line, end);
+}
+
+static OstStatus read_cards(Nastran *nastran, int *ended)
+{
+    OstMshCursor *cursor = &nastran->cursor;
+    while (!*ended && cursor->next < cursor->end) {
+        const char *line = cursor->next;
+        const OstMshText text = ost_msh_rest_of_line(cursor);
+        cursor->place = line;
+        *ended = text.length >= 7 && strncasecmp(text.start, "ENDDATA", 7) == 0;
+        if (!*ended)
+            OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
+    }
+    OST_TRY(end_card(nastran));
+    nastran->name[0] = '\0';
+    return OST_SUCCESS;
+}
+
+/* The name of the file is in quotes, or ends with the line; it is relative to the file that it is in. */
+static void included_path(const OstMshCursor *cursor, const char *line, const char *end, char path[PATH_MAX])
+{
+    const char *name = line + 7, *slash = strrchr(cursor->path, '/');
+    while (name < end && strchr(" \t'\"", *name))
+        name++;
+    while (end > name && strchr(" \t'\"", end[-1]))
+        end--;
+    const int folder = slash && name < end && *name != '/' ? (int)(slash + 1 - cursor->path) : 0;
+    snprintf(path, PATH_MAX, "%.*s%.*s", folder, cursor->path, (int)(end - name < PATH_MAX ? end - name : 0), name);
+}
+
+static OstStatus include(Nastran *nastran, const char *line, const char *end)
+{
+    char path[PATH_MAX];
+    int ended = 0;
+    const OstMshCursor outer = nastran->cursor;
+    OstMshCursor inner;
+    OST_TRY(end_card(nastran));
+    nastran->name[0] = '\0';
+    if (nastran->depth == MOST_INCLUDES)
+        return OST_RAISE_MSH(&nastran->cursor, "files include each other more than %d deep", MOST_INCLUDES);
+    included_path(&outer, line, end, path);
+    OST_TRY(ost_msh_open(outer.ctx, path, &inner));
+    nastran->cursor = inner;
+    nastran->depth++;
+    const OstStatus status = read_cards(nastran, &ended);
+    nastran->depth--;
+    ost_msh_close(&nastran->cursor);
+    nastran->cursor = outer;
+    return status;
 }
 
 /* What stands before says how to solve: SPC = 1 is no card there. A file may hold the cards alone. */
@@ -358,17 +429,10 @@ static OstStatus read_lines(Nastran *nastran)
     OstMshCursor *cursor = &nastran->cursor;
     const int begun = go_to_bulk_data(cursor);
     int ended = 0;
-    while (!ended && cursor->next < cursor->end) {
-        const char *line = cursor->next;
-        const OstMshText text = ost_msh_rest_of_line(cursor);
-        cursor->place = line;
-        ended = text.length >= 7 && strncasecmp(text.start, "ENDDATA", 7) == 0;
-        if (!ended)
-            OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
-    }
+    OST_TRY(read_cards(nastran, &ended));
     if (begun && !ended)
         ost_warn(cursor->ctx, "%s: BEGIN BULK has no ENDDATA: is the file complete?", cursor->path);
-    return end_card(nastran);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)

@@ -12,7 +12,7 @@
 /* I-deas's universal files: data sets between lines of -1, the first line of each its number. Read are nodes (15, 781,
  * 2411), elements (780, 2412) and groups (2429 to 2477). */
 
-enum { MOST_NUMBERS = 10, LONGEST_NAME = 80, OF_NODES = 7, OF_ELEMENTS = 8, MOST_NODES = 20 };
+enum { MOST_NUMBERS = 10, LONGEST_NAME = 80, OF_NODES = 7, OF_ELEMENTS = 8, MOST_NODES = 27 };
 
 typedef struct Unv {
     OstMshCursor cursor;
@@ -34,6 +34,11 @@ static const struct {
     {113, OST_CELL_WEDGE15, {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11}},
     {115, OST_CELL_HEX8, {0, 1, 2, 3, 4, 5, 6, 7}},
     {116, OST_CELL_HEX20, {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15}},
+    /* Gmsh's, in its own order. */
+    {112, OST_CELL_WEDGE18, {0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10, 15, 17, 16}},
+    {115, OST_CELL_HEX27, {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 16, 9,  17, 10,
+                           18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26}},
+    {94, OST_CELL_QUAD9, {0, 1, 2, 3, 4, 5, 6, 7, 8}},
     {44, OST_CELL_QUAD4, {0, 1, 2, 3}},
     {54, OST_CELL_QUAD4, {0, 1, 2, 3}},
     {64, OST_CELL_QUAD4, {0, 1, 2, 3}},
@@ -157,7 +162,7 @@ static OstStatus read_old_nodes(Unv *unv)
 
 /* --- elements --- */
 
-/* An element's nodes, over as many lines as they take; those after the twentieth are passed over. */
+/* An element's nodes, over as many lines as they take; those after the last that any shape has are passed over. */
 static OstStatus read_nodes_of(Unv *unv, OstGlobal count, OstGlobal nodes[MOST_NODES])
 {
     OstGlobal done = 0;

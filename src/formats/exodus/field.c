@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/exodus/exodus.h"
 #include "formats/exodus/file.h"
+#include "formats/exodus/parts.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -65,6 +66,8 @@ static OstStatus make_room(Field *field, int width)
 {
     const OstMeshChunk *chunk = field->chunk;
     OstFileField *out = field->out;
+    if (out->values) /* of the parts before */
+        return OST_SUCCESS;
     out->width = width;
     if (out->on_nodes)
         OST_TRY(ost_label_index_create(chunk->ctx, chunk->node_count, chunk->node_label, &field->rows));
@@ -160,18 +163,17 @@ static OstStatus read_all(Field *field)
     if (!field->out->found)
         return OST_SUCCESS;
     OST_TRY(ost_netcdf_dimension(&field->exodus.nc, "time_step", &steps));
-    if (steps > 1 && !field->exodus.nc.dry)
+    if (steps > 1 && !field->exodus.nc.dry && !field->out->values)
         ost_warn(field->chunk->ctx, "%s: the field '%s' has %d time steps; the last is taken", field->exodus.nc.path,
                  field->name, steps);
     return field->out->on_nodes ? read_on_nodes(field) : read_on_elements(field);
 }
 
-static OstStatus read_field(OstContext *ctx, const char *path, int dry, Field *field)
+static OstStatus read_field(OstContext *ctx, const char *path, int parts, int dry, Field *field)
 {
-    OstStatus status = ost_exodus_open(ctx, path, dry, &field->exodus);
+    OstStatus status = ost_exodus_open(ctx, path, parts, dry, &field->exodus);
     OST_THEN(read_all(field));
     ost_exodus_close(&field->exodus);
-    ost_label_index_clear(&field->rows);
     return status;
 }
 
@@ -179,13 +181,20 @@ static OstStatus try_field(OstContext *ctx, const char *path, const char *name)
 {
     OstFileField none = {0};
     Field field = {.name = name, .out = &none};
-    return read_field(ctx, path, 1, &field);
+    return read_field(ctx, path, 1, 1, &field);
 }
 
 OstStatus ost_exodus_read_field(OstContext *ctx, const char *path, const char *name, const OstMeshChunk *chunk,
                                 OstFileField *out)
 {
     Field field = {.name = name, .chunk = chunk, .out = out};
-    OST_TRY(ost_netcdf_dry_run(ctx, path, try_field, name));
-    return read_field(ctx, path, 0, &field);
+    OstExodusParts parts = {0};
+    OstStatus status = ost_exodus_parts_find(ctx, path, &parts);
+    for (int p = 0; p < parts.count && status == OST_SUCCESS && (p == 0 || out->found); p++) {
+        status = ost_netcdf_dry_run(ctx, parts.path[p], try_field, name);
+        OST_THEN(read_field(ctx, parts.path[p], parts.count, 0, &field));
+    }
+    ost_label_index_clear(&field.rows);
+    ost_exodus_parts_free(&parts);
+    return status;
 }

@@ -22,21 +22,22 @@ static const OstExodusType types[] = {
     {"HEX", 27, 3, OST_CELL_HEX27, hexahedron}, {"WED", 6, 3, OST_CELL_WEDGE6, NULL},
     {"WED", 15, 3, OST_CELL_WEDGE15, wedge},    {"WED", 18, 3, OST_CELL_WEDGE18, wedge},
     {"PYR", 5, 3, OST_CELL_PYRAMID5, NULL},     {"PYR", 13, 3, OST_CELL_PYRAMID13, NULL},
-    {"TRI", 3, 2, OST_CELL_TRIANGLE3, NULL},    {"TRI", 6, 2, OST_CELL_TRIANGLE6, NULL},
-    {"SHE", 3, 2, OST_CELL_TRIANGLE3, NULL},    {"SHE", 6, 2, OST_CELL_TRIANGLE6, NULL},
-    {"SHE", 4, 2, OST_CELL_QUAD4, NULL},        {"SHE", 8, 2, OST_CELL_QUAD8, NULL},
-    {"SHE", 9, 2, OST_CELL_QUAD9, NULL},        {"QUA", 4, 2, OST_CELL_QUAD4, NULL},
-    {"QUA", 8, 2, OST_CELL_QUAD8, NULL},        {"QUA", 9, 2, OST_CELL_QUAD9, NULL},
-    {"BAR", 2, 1, OST_CELL_LINE2, NULL},        {"BAR", 3, 1, OST_CELL_LINE3, NULL},
-    {"BEA", 2, 1, OST_CELL_LINE2, NULL},        {"BEA", 3, 1, OST_CELL_LINE3, NULL},
-    {"TRU", 2, 1, OST_CELL_LINE2, NULL},        {"TRU", 3, 1, OST_CELL_LINE3, NULL},
-    {"EDG", 2, 1, OST_CELL_LINE2, NULL},        {"EDG", 3, 1, OST_CELL_LINE3, NULL},
-    {"SPH", 1, 0, OST_CELL_POINT, NULL},        {"TRI", 0, 2, OST_CELL_KINDS, NULL},
-    {"SHE", 0, 2, OST_CELL_KINDS, NULL},        {"QUA", 0, 2, OST_CELL_KINDS, NULL},
-    {"NSI", 0, 2, OST_CELL_KINDS, NULL},        {"BAR", 0, 1, OST_CELL_KINDS, NULL},
-    {"BEA", 0, 1, OST_CELL_KINDS, NULL},        {"TRU", 0, 1, OST_CELL_KINDS, NULL},
-    {"EDG", 0, 1, OST_CELL_KINDS, NULL},        {"SPH", 0, 0, OST_CELL_KINDS, NULL},
-    {"CIR", 0, 0, OST_CELL_KINDS, NULL},        {"NUL", 0, 0, OST_CELL_KINDS, NULL},
+    {"PYR", 14, 3, OST_CELL_PYRAMID14, NULL},   {"TRI", 3, 2, OST_CELL_TRIANGLE3, NULL},
+    {"TRI", 6, 2, OST_CELL_TRIANGLE6, NULL},    {"SHE", 3, 2, OST_CELL_TRIANGLE3, NULL},
+    {"SHE", 6, 2, OST_CELL_TRIANGLE6, NULL},    {"SHE", 4, 2, OST_CELL_QUAD4, NULL},
+    {"SHE", 8, 2, OST_CELL_QUAD8, NULL},        {"SHE", 9, 2, OST_CELL_QUAD9, NULL},
+    {"QUA", 4, 2, OST_CELL_QUAD4, NULL},        {"QUA", 8, 2, OST_CELL_QUAD8, NULL},
+    {"QUA", 9, 2, OST_CELL_QUAD9, NULL},        {"BAR", 2, 1, OST_CELL_LINE2, NULL},
+    {"BAR", 3, 1, OST_CELL_LINE3, NULL},        {"BEA", 2, 1, OST_CELL_LINE2, NULL},
+    {"BEA", 3, 1, OST_CELL_LINE3, NULL},        {"TRU", 2, 1, OST_CELL_LINE2, NULL},
+    {"TRU", 3, 1, OST_CELL_LINE3, NULL},        {"EDG", 2, 1, OST_CELL_LINE2, NULL},
+    {"EDG", 3, 1, OST_CELL_LINE3, NULL},        {"SPH", 1, 0, OST_CELL_POINT, NULL},
+    {"TRI", 0, 2, OST_CELL_KINDS, NULL},        {"SHE", 0, 2, OST_CELL_KINDS, NULL},
+    {"QUA", 0, 2, OST_CELL_KINDS, NULL},        {"NSI", 0, 2, OST_CELL_KINDS, NULL},
+    {"BAR", 0, 1, OST_CELL_KINDS, NULL},        {"BEA", 0, 1, OST_CELL_KINDS, NULL},
+    {"TRU", 0, 1, OST_CELL_KINDS, NULL},        {"EDG", 0, 1, OST_CELL_KINDS, NULL},
+    {"SPH", 0, 0, OST_CELL_KINDS, NULL},        {"CIR", 0, 0, OST_CELL_KINDS, NULL},
+    {"NUL", 0, 0, OST_CELL_KINDS, NULL},
 };
 /* NFACED and whatever else. */
 static const OstExodusType a_solid = {"", 0, 3, OST_CELL_KINDS, NULL};
@@ -170,10 +171,25 @@ static OstStatus find_blocks(OstExodus *exodus)
     return status;
 }
 
-OstStatus ost_exodus_open(OstContext *ctx, const char *path, int dry, OstExodus *exodus)
+/* The parts of a mesh are joined by the numbers of nodes in all of it. */
+static OstStatus check_maps(const OstExodus *exodus)
+{
+    const char *path = exodus->nc.path;
+    if (exodus->nc.dry || exodus->parts == 1 || (exodus->nodes == 0 && exodus->elements == 0))
+        return OST_SUCCESS;
+    if (exodus->node_label && (exodus->element_label || exodus->elements == 0))
+        return OST_SUCCESS;
+    return OST_RAISE(exodus->nc.ctx, OST_INVALID_INPUT,
+                     "%s: one of %d files of a mesh, without usable numbers of %s in all of it (%s); join the files: "
+                     "epu -auto %s",
+                     path, exodus->parts, exodus->node_label ? "elements" : "nodes",
+                     exodus->node_label ? "elem_num_map" : "node_num_map", path);
+}
+
+OstStatus ost_exodus_open(OstContext *ctx, const char *path, int parts, int dry, OstExodus *exodus)
 {
     OstLocal dimension = 0;
-    *exodus = (OstExodus){.nodes = 0};
+    *exodus = (OstExodus){.parts = parts};
     OST_TRY(ost_netcdf_open(ctx, path, dry, &exodus->nc));
     OST_TRY(ost_netcdf_dimension(&exodus->nc, "num_dim", &dimension));
     if (dimension != 3)
@@ -185,7 +201,8 @@ OstStatus ost_exodus_open(OstContext *ctx, const char *path, int dry, OstExodus 
     OST_TRY(ost_netcdf_dimension(&exodus->nc, "num_nodes", &exodus->nodes));
     OST_TRY(find_blocks(exodus));
     OST_TRY(read_map(&exodus->nc, "node_num_map", "node", exodus->nodes, &exodus->node_label));
-    return read_map(&exodus->nc, "elem_num_map", "element", exodus->elements, &exodus->element_label);
+    OST_TRY(read_map(&exodus->nc, "elem_num_map", "element", exodus->elements, &exodus->element_label));
+    return check_maps(exodus);
 }
 
 void ost_exodus_close(OstExodus *exodus)

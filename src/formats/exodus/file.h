@@ -26,13 +26,15 @@ typedef struct OstExodusBlock {
 typedef struct OstExodus {
     OstNetcdf nc;
     OstLocal nodes, elements;
+    int parts;                             /* files that the mesh is in */
     OstGlobal *node_label, *element_label; /* NULL: the place is the number */
     OstLocal block_count;
     OstExodusBlock *block;
 } OstExodus;
 
-/* Local. Opens a file, and reads its maps and what blocks there are. Close it even after a failure. */
-OstStatus ost_exodus_open(OstContext *ctx, const char *path, int dry, OstExodus *exodus);
+/* Local. Opens a file, one of the `parts` of the mesh, and reads its maps and what blocks there are: of several parts
+ * there must be maps. Close it even after a failure. */
+OstStatus ost_exodus_open(OstContext *ctx, const char *path, int parts, int dry, OstExodus *exodus);
 void ost_exodus_close(OstExodus *exodus);
 
 /* Local. The number of a node or an element by its place; -1 if there is none there. */

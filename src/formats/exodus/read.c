@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/small.h"
 #include "formats/exodus/exodus.h"
 #include "formats/exodus/file.h"
+#include "formats/exodus/parts.h"
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { NAME = 64, MOST_NODES = 27 };
+
+/* Of its distance from the origin: coordinates may be in single precision. */
+static const double same_place = 1e-6;
 
 /* --- nodes --- */
 
@@ -28,6 +35,8 @@ static OstStatus open_axis(const OstExodus *exodus, int axis, OstNetcdfRows *row
 static OstStatus read_nodes(const OstExodus *exodus, OstCells *cells)
 {
     OstNetcdfRows axis[3];
+    if (exodus->nodes == 0) /* a rank without any */
+        return OST_SUCCESS;
     for (int d = 0; d < 3; d++)
         OST_TRY(open_axis(exodus, d, &axis[d]));
     do {
@@ -92,12 +101,83 @@ static OstStatus read_block(const OstExodus *exodus, OstLocal b, OstCells *cells
     return OST_SUCCESS;
 }
 
+/* --- parts --- */
+
+/* A node by its number, to be sorted by it, and of one number as they came. */
+typedef struct Place {
+    OstGlobal label;
+    OstLocal node;
+} Place;
+
+static int compare_places(const void *a, const void *b)
+{
+    const Place *x = a, *y = b;
+    return x->label != y->label ? (x->label > y->label) - (x->label < y->label)
+                                : (x->node > y->node) - (x->node < y->node);
+}
+
+static OstStatus check_same(const OstCells *cells, OstLocal first, OstLocal second)
+{
+    const double *x = cells->chunk->coordinates + 3 * (size_t)first,
+                 *y = cells->chunk->coordinates + 3 * (size_t)second;
+    const double size = fmax(ost_norm3(x), ost_norm3(y)), d[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
+    if (ost_norm3(d) <= same_place * size)
+        return OST_SUCCESS;
+    return OST_RAISE(cells->ctx, OST_INVALID_INPUT,
+                     "%s: node %" PRId64
+                     " is at (%g, %g, %g) in one part and at (%g, %g, %g) in another; the parts are of "
+                     "different meshes, or their numbers are not those of the whole: join them by epu",
+                     cells->path, cells->chunk->node_label[first], x[0], x[1], x[2], y[0], y[1], y[2]);
+}
+
+/* Keeps each node once, in the order of the numbers. */
+static OstStatus join_nodes(OstCells *cells)
+{
+    OstMeshChunk *chunk = cells->chunk;
+    const OstLocal count = chunk->node_count;
+    Place *place = NULL;
+    double *x = NULL;
+    OstLocal kept = 0;
+    OstStatus status = OST_NEW(cells->ctx, &place, count);
+    OST_THEN(OST_NEW(cells->ctx, &x, 3 * (size_t)count));
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
+        place[n] = (Place){chunk->node_label[n], n};
+    if (status == OST_SUCCESS && count > 0)
+        qsort(place, (size_t)count, sizeof *place, compare_places);
+    for (OstLocal n = 0, first = 0; n < count && status == OST_SUCCESS; n++) {
+        if (n > 0 && place[n].label == place[n - 1].label) {
+            status = check_same(cells, place[first].node, place[n].node);
+            continue;
+        }
+        first = n;
+        memcpy(x + 3 * (size_t)kept++, chunk->coordinates + 3 * (size_t)place[n].node, 3 * sizeof *x);
+    }
+    for (OstLocal n = 0, to = 0; n < count && status == OST_SUCCESS; n++)
+        if (n == 0 || place[n].label != place[n - 1].label)
+            chunk->node_label[to++] = place[n].label;
+    if (status == OST_SUCCESS && kept > 0)
+        memcpy(chunk->coordinates, x, 3 * (size_t)kept * sizeof *x);
+    chunk->node_count = kept;
+    OST_FREE(place);
+    OST_FREE(x);
+    return status;
+}
+
+/* Sets have the nodes that parts share from each of them. */
+static OstStatus join_parts(OstCells *cells)
+{
+    OST_TRY(join_nodes(cells));
+    for (int s = 0; s < cells->set_count; s++)
+        ost_cells_keep_once(cells, s);
+    return OST_SUCCESS;
+}
+
 /* --- the file --- */
 
-static OstStatus read_all(OstContext *ctx, const char *path, int dry, OstCells *cells)
+static OstStatus read_all(OstContext *ctx, const char *path, int parts, int dry, OstCells *cells)
 {
     OstExodus exodus;
-    OstStatus status = ost_exodus_open(ctx, path, dry, &exodus);
+    OstStatus status = ost_exodus_open(ctx, path, parts, dry, &exodus);
     OST_THEN(read_nodes(&exodus, cells));
     for (OstLocal b = 0; b < exodus.block_count && status == OST_SUCCESS; b++)
         status = read_block(&exodus, b, cells);
@@ -109,16 +189,30 @@ static OstStatus read_all(OstContext *ctx, const char *path, int dry, OstCells *
 static OstStatus try_all(OstContext *ctx, const char *path, const char *name)
 {
     (void)name;
-    return read_all(ctx, path, 1, NULL);
+    return read_all(ctx, path, 1, 1, NULL);
+}
+
+static OstStatus read_parts(const OstExodusParts *parts, OstCells *cells)
+{
+    for (int p = 0; p < parts->count; p++) {
+        OST_TRY(ost_netcdf_dry_run(cells->ctx, parts->path[p], try_all, NULL));
+        OST_TRY(read_all(cells->ctx, parts->path[p], parts->count, 0, cells));
+    }
+    if (parts->count == 1)
+        return OST_SUCCESS;
+    ost_log(cells->ctx, OST_LOG_NORMAL, "%s: joined with the others of %d files", parts->path[0], parts->count);
+    return join_parts(cells);
 }
 
 OstStatus ost_exodus_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     OstCells cells;
+    OstExodusParts parts = {0};
     OstStatus status = ost_cells_open(ctx, path, &cells);
-    OST_THEN(ost_netcdf_dry_run(ctx, path, try_all, NULL));
-    OST_THEN(read_all(ctx, path, 0, &cells));
+    OST_THEN(ost_exodus_parts_find(ctx, path, &parts));
+    OST_THEN(read_parts(&parts, &cells));
     OST_THEN(ost_cells_finish(&cells, chunk));
     ost_cells_close(&cells);
+    ost_exodus_parts_free(&parts);
     return status;
 }

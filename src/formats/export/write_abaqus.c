@@ -2,6 +2,7 @@
 #include "formats/export/export.h"
 
 #include <inttypes.h>
+#include <string.h>
 
 /* Abaqus's input: an element set for each region, triangles in a set for each boundary of faces, sets of nodes for
  * those of curves and points. */
@@ -16,9 +17,18 @@ static void write_item(FILE *file, const OstMeshChunk *whole, OstGlobal label, i
     fputc('\n', file);
 }
 
+/* Other names than words go in quotes. */
+static void write_set(FILE *file, const char *parameter, const char *name)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+    const char *quote = name[strspn(name, plain)] ? "\"" : "";
+    fprintf(file, "%s=%s%s%s\n", parameter, quote, name, quote);
+}
+
 static void write_region(FILE *file, const OstMeshChunk *whole, int region)
 {
-    fprintf(file, "*ELEMENT, TYPE=C3D%d, ELSET=%s\n", whole->nodes_per_tet, whole->regions.name[region]);
+    fprintf(file, "*ELEMENT, TYPE=C3D%d, ", whole->nodes_per_tet);
+    write_set(file, "ELSET", whole->regions.name[region]);
     for (OstLocal t = 0; t < whole->tet_count; t++)
         if (whole->tet_region[t] == region)
             write_item(file, whole, whole->tet_label[t], whole->nodes_per_tet,
@@ -30,12 +40,13 @@ static OstGlobal write_boundary(FILE *file, const OstMeshChunk *whole, const Ost
 {
     const size_t width = (size_t)boundary->nodes_per_item, total = width * (size_t)boundary->count;
     if (boundary->dimension == 2) {
-        fprintf(file, "*ELEMENT, TYPE=%s, ELSET=%s\n", width == 3 ? "S3" : "STRI65", boundary->name);
+        fprintf(file, "*ELEMENT, TYPE=%s, ", width == 3 ? "S3" : "STRI65");
+        write_set(file, "ELSET", boundary->name);
         for (OstLocal i = 0; i < boundary->count; i++)
             write_item(file, whole, ++last, (int)width, boundary->nodes + width * (size_t)i);
         return last;
     }
-    fprintf(file, "*NSET, NSET=%s\n", boundary->name);
+    write_set(file, "*NSET, NSET", boundary->name);
     for (size_t i = 0; i < total; i++)
         fprintf(file, "%" PRId64 "%s", whole->node_label[boundary->nodes[i]],
                 i + 1 == total || i % NUMBERS_A_LINE == NUMBERS_A_LINE - 1 ? "\n" : ", ");

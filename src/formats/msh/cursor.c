@@ -71,6 +71,8 @@ OstStatus ost_msh_open(OstContext *ctx, const char *path, OstMshCursor *cursor)
         gzclose(file);
     fclose(plain);
     cursor->next = cursor->place = cursor->bytes;
+    if (status == OST_SUCCESS && cursor->end - cursor->bytes >= 3 && memcmp(cursor->bytes, "\xEF\xBB\xBF", 3) == 0)
+        cursor->next += 3; /* the mark that Windows' editors put before a text */
     if (status != OST_SUCCESS)
         ost_msh_close(cursor);
     return status;

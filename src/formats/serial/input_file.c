@@ -18,6 +18,8 @@ OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGloba
     if (!S_ISREG(facts.st_mode))
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: is %s, expected a file", path,
                          S_ISDIR(facts.st_mode) ? "a folder" : "no regular file");
+    if (facts.st_size == 0)
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: is empty; write it again", path);
     *file = fopen(path, "rb");
     if (!*file)
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));

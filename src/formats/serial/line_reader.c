@@ -17,11 +17,20 @@ enum { FIRST_CAPACITY = 256, SHOWN_WORD = 40, PLACE_SIZE = 4200 };
 static const char separators[] = " \t,";
 static const char word_ends[] = " \t,:#";
 
+/* Windows' editors put a mark of three bytes before a text in UTF-8. */
+static void skip_mark(FILE *file)
+{
+    unsigned char mark[3] = {0};
+    if (fread(mark, 1, sizeof mark, file) != sizeof mark || memcmp(mark, "\xEF\xBB\xBF", sizeof mark) != 0)
+        rewind(file);
+}
+
 OstStatus ost_lines_open(OstContext *ctx, const char *path, OstLineReader *reader)
 {
     *reader = (OstLineReader){.ctx = ctx};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_file_open(ctx, path, &reader->file, &reader->bytes));
+    skip_mark(reader->file);
     OST_TRY_DONE(ost_copy_string(ctx, path, &reader->path));
     OST_TRY_DONE(OST_NEW(ctx, &reader->text, FIRST_CAPACITY));
     reader->capacity = FIRST_CAPACITY;
@@ -129,11 +138,20 @@ OstStatus ost_lines_integer(OstLineReader *reader, const char *what, OstGlobal *
     return OST_SUCCESS;
 }
 
+/* The exponent's letter becomes one that strtod knows. */
+static double strtod_of_fortran(char *text, const char *start, char **end)
+{
+    text[*end - text] = 'e';
+    return strtod(start, end);
+}
+
 OstStatus ost_lines_number(OstLineReader *reader, const char *what, double *value)
 {
     const char *start = skip_separators(reader);
     char *end = NULL;
-    const double number = strtod(start, &end);
+    double number = strtod(start, &end);
+    if (end > start && (*end == 'D' || *end == 'd')) /* Fortran's 1.5D+3: the line is the reader's own */
+        number = strtod_of_fortran(reader->text, start, &end);
     if (end == start || !strchr(word_ends, *end))
         return raise_not_a_number(reader, what, "a number");
     if (!isfinite(number))

@@ -80,6 +80,11 @@ void ost_vtk_clear(OstVtkGrid *grid)
     OST_FREE(grid->type);
 }
 
+const char *ost_vtk_region_name(int number)
+{
+    return number < REGION_NAMES ? region_names[number] : NULL;
+}
+
 int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components)
 {
     if (grid->wanted)
@@ -264,18 +269,28 @@ static OstStatus check_grid(const OstVtkGrid *grid)
     return OST_SUCCESS;
 }
 
-static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstVtkGrid *grid)
+static int has_ending(const char *path, const char *ending)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ending) == 0;
+}
+
+static OstStatus read_text_or_xml(OstVtkGrid *grid)
 {
     OstMshCursor cursor;
-    *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted};
-    OST_TRY(ost_msh_open(ctx, path, &cursor));
-    const char *ending = strrchr(path, '.');
+    OST_TRY(ost_msh_open(grid->ctx, grid->path, &cursor));
     grid->by_meshio = ost_vtk_is_by_meshio(&cursor);
-    OstStatus status = ending && strcasecmp(ending, ".vtu") == 0 ? ost_vtk_xml_grid(&cursor, grid)
-                                                                 : ost_vtk_legacy_grid(&cursor, grid);
+    const OstStatus status =
+        has_ending(grid->path, ".vtu") ? ost_vtk_xml_grid(&cursor, grid) : ost_vtk_legacy_grid(&cursor, grid);
     ost_msh_close(&cursor);
-    OST_THEN(check_grid(grid));
     return status;
+}
+
+static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstVtkGrid *grid)
+{
+    *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted};
+    OST_TRY(has_ending(path, ".vtkhdf") || has_ending(path, ".hdf") ? ost_vtk_hdf_grid(grid) : read_text_or_xml(grid));
+    return check_grid(grid);
 }
 
 OstStatus ost_vtk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)

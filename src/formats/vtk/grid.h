@@ -6,7 +6,7 @@
 #include "formats/msh/cursor.h"
 #include "formats/serial/formats.h"
 
-/* VTK's files of other programs, .vtk and .vtu: an unstructured grid in memory. */
+/* VTK's files of other programs, .vtk, .vtu and .vtkhdf: an unstructured grid in memory. */
 
 enum { OST_VTK_NAME = 1024 }; /* that of an array may be the names of many sets (sets.c) */
 
@@ -46,7 +46,11 @@ typedef struct OstVtkGrid {
 /* Local. Read a file into an empty grid; clear it even after a failure. */
 OstStatus ost_vtk_legacy_grid(OstMshCursor *cursor, OstVtkGrid *grid);
 OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid);
+OstStatus ost_vtk_hdf_grid(OstVtkGrid *grid);
 void ost_vtk_clear(OstVtkGrid *grid);
+
+/* Local. Names of cell arrays that may say which region a cell is in, from 0; NULL after the last. */
+const char *ost_vtk_region_name(int number);
 
 /* Local. Is an array of this name kept? Adds one, with its values, which the grid then owns. */
 int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components);

@@ -355,8 +355,11 @@ static OstStatus read_keyword(Legacy *legacy, const char *word)
         next_word(legacy->cursor, name);
         return strcasecmp(name, "UNSTRUCTURED_GRID") == 0
                    ? OST_SUCCESS
-                   : OST_RAISE_MSH(legacy->cursor,
-                                   "a data set of the kind '%s', expected UNSTRUCTURED_GRID, a mesh of tets", name);
+                   : OST_RAISE_MSH(
+                         legacy->cursor,
+                         "a data set of the kind '%s', expected UNSTRUCTURED_GRID (in ParaView: Tetrahedralize, "
+                         "then File, Save Data as .vtu)",
+                         name);
     }
     if (strcasecmp(word, "POINTS") == 0)
         return read_points(legacy);

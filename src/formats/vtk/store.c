@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/vtk/lz4.h"
 #include "formats/vtk/xml.h"
 
 #include <inttypes.h>
@@ -109,6 +110,15 @@ static OstStatus get_plain(const Bytes *from, OstGlobal *length, char **data)
     return OST_SUCCESS;
 }
 
+static int unpack_block(OstVtuPacker packer, const unsigned char *packed, OstGlobal packed_size, unsigned char *data,
+                        OstGlobal size)
+{
+    uLongf written = (uLongf)size;
+    if (packer == OST_VTU_LZ4)
+        return ost_lz4_unpack(packed, (size_t)packed_size, data, (size_t)size);
+    return uncompress(data, &written, packed, (uLong)packed_size) == Z_OK && (OstGlobal)written == size;
+}
+
 /* Unpacks the blocks, whose packed bytes follow the header of 3 + blocks numbers. */
 static OstStatus unpack(const Bytes *from, const OstGlobal *header, const char *packed, char *data)
 {
@@ -116,9 +126,8 @@ static OstStatus unpack(const Bytes *from, const OstGlobal *header, const char *
     OstGlobal at = 0, done = 0;
     for (OstGlobal b = 0; b < blocks; b++) {
         const OstGlobal size = b + 1 == blocks && last > 0 ? last : header[1];
-        uLongf written = (uLongf)size;
-        if (uncompress((Bytef *)data + done, &written, (const Bytef *)packed + at, (uLong)header[3 + b]) != Z_OK ||
-            (OstGlobal)written != size)
+        if (!unpack_block(from->store->packer, (const unsigned char *)packed + at, header[3 + b],
+                          (unsigned char *)data + done, size))
             return OST_RAISE_MSH(from->store->cursor,
                                  "block %" PRId64 " cannot be unpacked; the file is damaged, write it "
                                  "again",
@@ -204,7 +213,11 @@ static OstStatus from_bytes(const Bytes *from, OstVtkType type, OstGlobal *count
     OstMshCursor *cursor = from->store->cursor;
     OstGlobal length = 0;
     char *data = NULL;
-    OST_TRY(from->store->compressed ? get_compressed(from, &length, &data) : get_plain(from, &length, &data));
+    if (from->store->packer == OST_VTU_OTHER)
+        return OST_RAISE_MSH(cursor, "data packed by neither zlib nor LZ4; write the file again so (in ParaView's Save "
+                                     "Data, Compressor Type: ZLib)");
+    OST_TRY(from->store->packer != OST_VTU_PLAIN ? get_compressed(from, &length, &data)
+                                                 : get_plain(from, &length, &data));
     const OstGlobal found = length / type.bytes;
     OstStatus status = OST_SUCCESS;
     if (*count >= 0 && found != *count)

@@ -51,13 +51,16 @@ static OstStatus begin_file(Vtu *vtu, const OstXmlTag *tag)
     const int one = 1;
     const int little = *(const char *)&one;
     if (!type || strcmp(type, "UnstructuredGrid") != 0)
-        return OST_RAISE_MSH(vtu->cursor, "a file of the type '%s', expected UnstructuredGrid", type ? type : "");
-    if (packed && packed[0] && strcmp(packed, "vtkZLibDataCompressor") != 0)
-        return OST_RAISE_MSH(vtu->cursor, "data packed by %s, expected by zlib or not at all; write the file again so",
-                             packed);
+        return OST_RAISE_MSH(vtu->cursor,
+                             "a file of the type '%s', expected UnstructuredGrid (in ParaView: Tetrahedralize, then "
+                             "File, Save Data as .vtu)",
+                             type ? type : "");
     vtu->store.swapped = order && (strcmp(order, "LittleEndian") == 0) != little;
     vtu->store.header_bytes = header && strcmp(header, "UInt64") == 0 ? 8 : 4;
-    vtu->store.compressed = packed && packed[0];
+    vtu->store.packer = !packed || !packed[0]                          ? OST_VTU_PLAIN
+                        : strcmp(packed, "vtkZLibDataCompressor") == 0 ? OST_VTU_ZLIB
+                        : strcmp(packed, "vtkLZ4DataCompressor") == 0  ? OST_VTU_LZ4
+                                                                       : OST_VTU_OTHER;
     return OST_SUCCESS;
 }
 
@@ -102,23 +105,24 @@ static OstStatus read_names(OstMshCursor *cursor, OstVtkGrid *grid)
     return OST_SUCCESS;
 }
 
-static OstStatus begin_piece(Vtu *vtu, const OstXmlTag *tag)
-{
-    OstVtkGrid *grid = vtu->grid;
-    vtu->first_point = grid->points;
-    vtu->first_cell = grid->cells;
-    vtu->first_connection = grid->connections;
-    vtu->seen = 0;
-    OST_TRY(ost_xml_number(vtu->cursor, tag, "NumberOfPoints", 0, &vtu->points));
-    return ost_xml_number(vtu->cursor, tag, "NumberOfCells", 0, &vtu->cells);
-}
-
 static OstStatus end_piece(Vtu *vtu)
 {
     if (vtu->points == 0 && vtu->cells == 0)
         return OST_SUCCESS;
     return vtu->seen == HAS_ALL ? OST_SUCCESS
                                 : OST_RAISE_MSH(vtu->cursor, "the piece has no points, connectivity, offsets or types");
+}
+
+static OstStatus begin_piece(Vtu *vtu, const OstXmlTag *tag)
+{
+    OstVtkGrid *grid = vtu->grid;
+    OST_TRY(end_piece(vtu)); /* one that the file does not end */
+    vtu->first_point = grid->points;
+    vtu->first_cell = grid->cells;
+    vtu->first_connection = grid->connections;
+    vtu->seen = 0;
+    OST_TRY(ost_xml_number(vtu->cursor, tag, "NumberOfPoints", 0, &vtu->points));
+    return ost_xml_number(vtu->cursor, tag, "NumberOfCells", 0, &vtu->cells);
 }
 
 static OstStatus take_points(Vtu *vtu, const double *values)
@@ -257,7 +261,7 @@ OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid)
     for (;;) {
         OST_TRY(ost_xml_next(cursor, &tag, &found));
         if (!found || strcmp(tag.name, "AppendedData") == 0)
-            return OST_SUCCESS;
+            return end_piece(&vtu);
         OST_TRY(read_tag(&vtu, &tag));
     }
 }

@@ -24,12 +24,15 @@ const char *ost_xml_value(const OstXmlTag *tag, const char *attribute);
 OstStatus ost_xml_number(OstMshCursor *cursor, const OstXmlTag *tag, const char *attribute, OstGlobal missing,
                          OstGlobal *number);
 
+/* What packs the numbers that are no text. */
+typedef enum { OST_VTU_PLAIN, OST_VTU_ZLIB, OST_VTU_LZ4, OST_VTU_OTHER } OstVtuPacker;
+
 /* How the numbers of a file are stored. */
 typedef struct OstVtuStore {
     OstMshCursor *cursor;
-    int swapped;          /* byte order differs from this machine's */
-    int header_bytes;     /* of the numbers before data: 4 or 8 */
-    int compressed;       /* by zlib */
+    int swapped;      /* byte order differs from this machine's */
+    int header_bytes; /* of the numbers before data: 4 or 8 */
+    OstVtuPacker packer;
     int base64;           /* appended data */
     const char *appended; /* where they begin; NULL: there are none */
 } OstVtuStore;

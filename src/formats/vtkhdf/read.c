@@ -6,6 +6,7 @@
 #include "core/parallel/reduce.h"
 #include "formats/vtkhdf/dry_run.h"
 #include "formats/vtkhdf/groups.h"
+#include "formats/vtkhdf/kind.h"
 #include "formats/vtkhdf/points.h"
 #include "formats/vtkhdf/steps.h"
 
@@ -22,9 +23,8 @@ typedef struct Reader {
     OstMeshChunk *chunk;
 } Reader;
 
-static OstStatus check_kind(Reader *reader)
+OstStatus ost_vtkhdf_check_kind(const OstHdf5 *h5)
 {
-    const OstHdf5 *h5 = &reader->h5;
     char type[64] = "";
     int version[2] = {0, 0};
     if (!ost_hdf5_has(h5, "/VTKHDF"))
@@ -277,7 +277,7 @@ static OstStatus open_and_read(OstContext *ctx, const char *path, Reader *reader
     OST_TRY(OST_NEW(ctx, &reader->chunk, 1));
     reader->chunk->ctx = ctx;
     OST_TRY(ost_hdf5_open(ctx, path, &reader->h5));
-    OST_TRY(check_kind(reader));
+    OST_TRY(ost_vtkhdf_check_kind(&reader->h5));
     OST_TRY(read_counts(reader));
     OST_TRY(read_types(reader));
     return read_points(reader);
@@ -299,7 +299,7 @@ static OstStatus dry_run(OstContext *ctx, const char *path, const char *name)
     (void)name;
     OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
     OST_THEN(ost_steps_try(&reader.h5, NULL, NULL));
-    OST_THEN(check_kind(&reader));
+    OST_THEN(ost_vtkhdf_check_kind(&reader.h5));
     const int can_be_read = status == OST_SUCCESS;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
         const OstStatus one = ost_hdf5_try_rows(&reader.h5, arrays[i].name, arrays[i].type);

@@ -34,7 +34,8 @@ static double flat_volume(const double *coordinates, const OstLocal *nodes)
 }
 
 /* The cube of a length below 1e-102 or above 1e102 underflows or overflows. */
-static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad)
+static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad,
+                               int twisted)
 {
     char cell[OST_CELL_WORDS];
     ost_cell_words(mesh, label, cell);
@@ -46,10 +47,22 @@ static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volu
     return OST_RAISE(
         mesh->ctx, OST_INVALID_INPUT,
         "tet %lld%s is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
-        "rounding of coordinates takes); mend the mesh: %lld of its tets are inverted or flat, and 'orthostat mesh "
-        "FILE NEW --orient' turns the "
-        "inverted ones",
-        (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad);
+        "rounding of coordinates takes); mend the mesh: %lld of its tets are inverted or flat, and %s",
+        (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad,
+        twisted ? "as others of the element are not, it is twisted, has a corner of 180 degrees or more, or its nodes "
+                  "are in a wrong order"
+                : "'orthostat mesh FILE NEW --orient' turns the inverted ones");
+}
+
+/* Has the element of the file with this tet others that are not inverted? */
+static OstStatus find_upright(const OstMesh *mesh, OstGlobal label, int *found)
+{
+    const OstGlobal cell = ost_cell_label(1, label);
+    *found = 0;
+    for (OstLocal t = 0; t < mesh->owned_tets && mesh->of_cells; t++)
+        *found |= ost_cell_label(1, mesh->tet_label[t]) == cell &&
+                  ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, t)) > 0.0;
+    return ost_max_ints(mesh->ctx, 1, found);
 }
 
 /* The message names the bad tet with the lowest label of all ranks. */
@@ -71,11 +84,14 @@ static OstStatus check_volumes(const OstMesh *mesh)
     OstGlobal first = lowest;
     OST_TRY(ost_min_numbers(mesh->ctx, 1, &first));
     OST_TRY(ost_sum_numbers(mesh->ctx, 1, &bad));
+    int twisted = 0;
+    if (first < INT64_MAX)
+        OST_TRY(find_upright(mesh, first, &twisted));
     OstStatus status = OST_SUCCESS;
     if (worst >= 0 && lowest == first) {
         const OstLocal *nodes = ost_mesh_nodes_of(mesh, worst);
         status = raise_bad_tet(mesh, lowest, ost_tet_volume(mesh->coordinates, nodes),
-                               flat_volume(mesh->coordinates, nodes), bad);
+                               flat_volume(mesh->coordinates, nodes), bad, twisted);
     }
     return ost_agree(mesh->ctx, status);
 }

@@ -155,6 +155,61 @@ def by_netcdf():
     exodus("exodus-linear-offset.gen", "linear", "NETCDF3_64BIT_OFFSET", "TET4", steps=1)
     exodus("exodus-linear-netcdf4.g", "linear", "NETCDF4_CLASSIC", "tetra4", zlib=True)
     exodus("exodus-quadratic-64bit.ex2", "quadratic", "NETCDF3_64BIT_DATA", "tetra10")
+    exodus_in_parts()
+
+
+def exodus_in_parts():
+    """The file of 4 ranks, as MOOSE or nem_spread write it: numbers in the whole are maps, lists name places in the part. The
+    last rank has nothing."""
+    with netCDF4.Dataset(os.path.join(HERE, "exodus-linear-classic.exo")) as whole:
+        whole.set_auto_mask(False)
+        points = np.stack([whole[f"coord{axis}"][:] for axis in "xyz"], axis=1)
+        tets = np.vstack([whole["connect1"][:], whole["connect2"][:]]) - 1
+        left, centre = len(whole["connect1"][:]), points[tets].mean(axis=1)
+        rank_of = np.where(centre[:, 0] < 1, 0, np.where(centre[:, 1] < 0.5, 1, 2))
+        for rank in range(4):
+            mine = np.flatnonzero(rank_of == rank)
+            used = np.unique(tets[mine])
+            node = {n: place for place, n in enumerate(used, 1)}
+            element = {e: place for place, e in enumerate(mine, 1)}
+            blocks = [mine[mine < left], mine[mine >= left], mine[:0]]
+            with netCDF4.Dataset(os.path.join(HERE, f"parts.e.4.{rank}"), "w", format="NETCDF3_CLASSIC") as out:
+                out.setncatts({word: whole.getncattr(word) for word in whole.ncattrs()})
+                for word, dimension in whole.dimensions.items():
+                    if not word.startswith(("num_el_in", "num_nod_ns", "num_side_ss")) and word not in ("num_nodes", "num_elem"):
+                        out.createDimension(word, None if dimension.isunlimited() else len(dimension))
+
+                def put(word, values, like=None):
+                    """An array whose first dimension, or that after the time step, is the part's."""
+                    form = whole[like or word]
+                    for name, size in zip(form.dimensions[::-1], np.shape(values)[::-1]):
+                        if name not in out.dimensions:
+                            out.createDimension(name, size)
+                    variable = out.createVariable(word, form.dtype, form.dimensions)
+                    variable.setncatts({a: form.getncattr(a) for a in form.ncattrs()})
+                    variable[:] = values
+
+                for word in whole.variables:
+                    values, stem = whole[word][:], word.rstrip("0123456789")
+                    if word.startswith(("coord", "node_num_map")):
+                        values = values[used]
+                    elif word == "elem_num_map":
+                        values = values[mine]
+                    elif stem == "connect":
+                        block = blocks[int(word[7:]) - 1]
+                        values = np.array([[node[n] for n in tets[e]] for e in block])
+                    elif stem == "node_ns":
+                        values = np.array([node[n - 1] for n in values if n - 1 in node])
+                    elif stem in ("elem_ss", "side_ss"):
+                        kept = [i for i, e in enumerate(whole["elem_ss" + word[7:]][:]) if e - 1 in element]
+                        values = np.array([element[values[i] - 1] if stem == "elem_ss" else values[i] for i in kept])
+                    elif word.startswith("vals_elem"):
+                        block = blocks[int(word[-1]) - 1]
+                        values = values[:, block - (0 if word[-1] == "1" else left)]
+                    elif word.startswith("vals_nod"):
+                        values = values[:, used]
+                    if np.size(values):
+                        put(word, values)
 
 
 def appended_by_vtk():

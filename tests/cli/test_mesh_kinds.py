@@ -1,0 +1,164 @@
+"""Mesh files as other programs write them, made here: curved tets, quadratic solids in any order, VTKHDF and packed .vtu files,
+names in quotes, what is generated or included."""
+import json
+import os
+
+import h5py
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
+
+from program import SOURCE, check, fewer, new_folder, run
+
+folder = new_folder()
+
+
+def write(name, text):
+    with open(os.path.join(folder, name), "w") as stream:
+        stream.write(text)
+    return name
+
+
+def inspect(*arguments, ranks=1):
+    done = run("mesh", *arguments, "--json", "-", ranks=ranks, folder=folder)
+    check(done.exit_code == 0, f"mesh {arguments}: {done.errors}")
+    return json.loads(done.output)
+
+
+# A tet whose edge on x bulges by 0.1: its volume is 1/6 + 4 0.1 / 24, the area at z = 0 is 1/2 + 4 0.1 / 6, integrals of its shape functions.
+CURVED = """*NODE
+1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1
+5, .5, -.1, 0\n6, .5, .5, 0\n7, 0, .5, 0\n8, 0, 0, .5\n9, .5, 0, .5\n10, 0, .5, .5
+*ELEMENT, TYPE=C3D10
+1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10
+*SURFACE, NAME=BELOW
+1, S1
+"""
+curved = inspect(write("curved.inp", CURVED))
+check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
+      f"{curved}")
+
+# What makes nodes of others, or moves them, is told; the rest of what Abaqus and Nastran have is read.
+FOUR = "*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+ONE = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n"
+for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NGEN\n1, 4, 1\n" + ONE, "*NGEN"),
+                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "a second part"), ("", "is empty")):
+    done = run("mesh", write("told.inp", text), folder=folder)
+    check(done.exit_code == 2 and words in done.errors, f"{words}: {done.errors}")
+held = inspect(write("mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
+check(held["tets"] == 1 and held["boundaries"][0]["name"] == "N" and held["boundaries"][0]["count"] == 4, f"{held}")
+write("nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n")
+held = inspect(write("included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
+check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")
+
+# MEDIT's quadratic solids, whose nodes may be in any order behind the vertices. The bodies are sheared by x + y z / 5, which keeps volumes.
+CORNERS = {"HexahedraQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)),
+           "PrismsP2": ((0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (0, 2, 2)),
+           "PyramidsP2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2)), "QuadrilateralsQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0))}
+EDGES = {"HexahedraQ2": "01 12 23 30 45 56 67 74 04 15 26 37 0123 4567 0145 1256 2367 3704 01234567",
+         "PrismsP2": "01 12 20 34 45 53 03 14 25 0143 1254 2035", "PyramidsP2": "01 12 23 30 04 14 24 34 0123", "QuadrilateralsQ2": "01 12 23 30 0123"}
+
+
+def medit(shapes, seed):
+    nodes, lines = {}, []
+    for word in shapes:
+        at = [np.array(corner) / 2 for corner in CORNERS[word]]
+        middles = [np.mean([at[int(c)] for c in ends], axis=0) for ends in EDGES[word].split()]
+        np.random.default_rng(seed).shuffle(middles)
+        numbers = [nodes.setdefault(tuple(x), len(nodes) + 1) for x in at + middles]
+        lines += [f"{word}\n1", " ".join(map(str, numbers)) + " 3"]
+    vertices = [f"{x + y * z / 5} {y} {z} 0" for x, y, z in nodes]
+    return "\n".join(["MeshVersionFormatted 2", "Dimension 3", f"Vertices {len(vertices)}", *vertices, *lines, "End", ""])
+
+
+for seed, (shapes, volume) in enumerate(((("HexahedraQ2", "QuadrilateralsQ2"), 1), (("PrismsP2",), 1 / 2), (("PyramidsP2", "QuadrilateralsQ2"), 1 / 3))):
+    held = inspect(write("middles.mesh", medit(shapes, seed)))
+    check(held["order"] == 2 and abs(held["volume"] - volume) < 1e-12 and held["regions"][0]["name"] == "volume-3", f"{shapes}: {held}")
+    check([(b["count"], round(b["area"], 12)) for b in held["boundaries"]] == ([(2, 1)] if len(shapes) > 1 else []), f"{held['boundaries']}")
+
+# A VTKHDF file of another program, in two pieces: a hexahedron and its face, and a wedge beside it, with points of their own.
+with h5py.File(os.path.join(folder, "other.vtkhdf"), "w") as file:
+    group = file.create_group("VTKHDF")
+    group.attrs["Version"] = [2, 0]
+    group.attrs.create("Type", np.bytes_("UnstructuredGrid"))
+    group["Points"] = np.array([*CORNERS["HexahedraQ2"], (2, 0, 0), (4, 0, 0), (2, 2, 0), (2, 0, 2), (4, 0, 2), (2, 2, 2)]) / 2
+    group["NumberOfPoints"], group["NumberOfCells"], group["NumberOfConnectivityIds"] = [8, 6], [2, 1], [12, 6]
+    group["Types"] = np.array([12, 9, 13], dtype=np.uint8)
+    group["Offsets"], group["Connectivity"] = [0, 8, 12, 0, 6], [*range(8), 0, 4, 7, 3, *range(6)]
+    group["CellData/region"], group["CellData/modulus"] = [4, 6, 5], [1000, 0, 2000]
+held = inspect("other.vtkhdf", "--merge", "1e-9")
+check({r["name"]: round(r["volume"], 12) for r in held["regions"]} == {"volume-4": 1, "volume-5": 0.5} and
+      [(b["name"], b["count"], b["area"]) for b in held["boundaries"]] == [("surface-6", 2, 1)] and
+      len(held["components"]) == 1 and held["misfit_faces"] == held["cracked_faces"] == 0, f"{held}")
+write("other.yaml", """mesh: {file: other.vtkhdf, merge: 1e-9}
+materials: [{region: all, youngs_modulus: {field: modulus}, poissons_ratio: 0}]
+constraints: [{on: {boundary: surface-6}, displacement: [0, 0, 0]}, {on: {plane: {point: [1, 0, 0], normal: [1, 0, 0]}}, displacement: [0.1, free, free]}]
+large_rotation: off
+watch: {pull: {reaction: {boundary: surface-6}, component: x}}
+""")
+for ranks in fewer([1, 2]):
+    done = run("solve", "other.yaml", "-q", "--json", "-", "--output", "out.vtkhdf", ranks=ranks, folder=folder)
+    check(done.exit_code == 0 and abs(json.loads(done.output)["watched"]["pull"]["value"] + 100) < 1e-5, done.errors + done.output)
+
+# Names in quotes have blanks and commas, and keep their small letters; other names are the same in capitals. Blanks in keywords do
+# not count, and sets may come with their instance.
+QUOTED = """*Heading
+ a model
+** comment
+*Preprint, echo=NO
+*Part, name="part one"
+*Node
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+5, 1., 1., 1.
+*Element, type=C3D4
+1, 1, 2, 3, 4
+2, 2, 3, 4, 5
+*Nset, nset="Set A, left", internal
+1, 2, 3
+*Elset, elset="part one"
+1,
+*Elset, elset=Rest
+ 2
+*Solid Section, elset="part one", material="Material 1"
+,
+*Solid  Section, ELSET=REST, material=m
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name="part one-1", part="part one"
+          0.,          0.,          2.
+*End Instance
+*Nset, nset=tip, instance="part one-1"
+ 5,
+*Nset, nset=both
+ TIP, "part one-1"."Set A, left"
+*Elset, elset=_Surf-1_S1, internal, instance="part one-1"
+ 1
+*Surface, type=ELEMENT, name="my surf"
+_surf-1_S1, s1
+*End Assembly
+*Material, name="Material 1"
+*Elastic
+1., .3
+"""
+first = inspect(write("quoted.inp", QUOTED), "again.inp")
+for named in (first, inspect("again.inp")):
+    check({r["name"]: r["tets"] for r in named["regions"]} == {"part one": 1, "Rest": 1}, f"{named['regions']}")
+    check({(b["name"], b["of"], b["count"]) for b in named["boundaries"]} ==
+          {("Set A, left", "faces", 1), ("both", "faces", 2), ("my surf", "faces", 1), ("tip", "points", 1)},
+          f"{named['boundaries']}")
+
+# VTK's packers: LZ4 is read, LZMA refused where it packs anything.
+source, writer = vtkXMLUnstructuredGridReader(), vtkXMLUnstructuredGridWriter()
+source.SetFileName(os.path.join(SOURCE, "tests", "formats", "exchange", "meshio-linear-zlib.vtu"))
+writer.SetInputConnection(source.GetOutputPort())
+for packer, mode, taken in (("LZ4", "Appended", True), ("LZ4", "Binary", True), ("LZMA", "Ascii", True), ("LZMA", "Binary", False)):
+    getattr(writer, "SetCompressorTypeTo" + packer)()
+    getattr(writer, "SetDataModeTo" + mode)()
+    writer.SetFileName(os.path.join(folder, "packed.vtu"))
+    writer.Write()
+    done = run("mesh", "packed.vtu", folder=folder)
+    check(done.exit_code == (0 if taken else 2) and ("48 linear tets" in done.output if taken else "zlib nor LZ4" in done.errors),
+          f"{packer} {mode}: {done.output} {done.errors}")
