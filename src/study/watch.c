@@ -192,8 +192,6 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
         return "a free body has none";
     if (scene->drive)
         return "the force of a moved coupling is looked for too";
-    if (result->pressure && result->formulation != OST_FORMULATION_LINEAR)
-        return "with large rotations the mixed form's adjoint problem is not solved";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
                                                          : "its adjoint problem was not solved, or a pressure that "
                                                            "follows makes it unsymmetric";
@@ -212,9 +210,7 @@ static const char *find_why(const OstScene *scene, const OstResult *result, cons
     case OST_WATCH_REACTION:
         return why_no_reaction(scene, result);
     case OST_WATCH_STRESS:
-        return result->pressure && result->formulation != OST_FORMULATION_LINEAR
-                   ? "with large rotations the estimate of a mixed form has no error of the pressure"
-                   : "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
+        return "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
     case OST_WATCH_DISPLACEMENT:
         break;
     }

@@ -45,7 +45,7 @@ int ost_reactions_allow_stop(const OstProblem *problem)
 int ost_reactions_have_adjoint(const OstProblem *problem)
 {
     return problem->scene && any(problem->scene->c) && is_work(problem) &&
-           (ost_problem_is_linear(problem) || (problem->conservative && !problem->pressures));
+           (ost_problem_is_linear(problem) || problem->conservative);
 }
 
 /* One watched reaction of an answer. */

@@ -24,8 +24,7 @@ void ost_reactions_clear(OstReactions *kept);
  * is an unknown. */
 int ost_reactions_allow_stop(const OstProblem *problem);
 
-/* Local. May a watched reaction have an adjoint problem? Not with the pressure as an unknown, nor where the stiffness
- * has an unsymmetric part. */
+/* Local. May a watched reaction have an adjoint problem? Not where the stiffness has an unsymmetric part. */
 int ost_reactions_have_adjoint(const OstProblem *problem);
 
 /* Collective. What is to be added to each watched reaction, and its error: found (one for each quantity watched) is
