@@ -205,8 +205,8 @@ static OstStatus find_surplus(Search *search, const Wanted *wanted)
     return ost_search_share(search, ost_search_true_square(search, square), wanted->tet_share);
 }
 
-/* Minus what a given motion adds to the second equation of a mixed form, by which its pressures are found. */
-static OstStatus move_volume(const OstProblem *problem, double t, const double *u, const double *moved, double *g)
+/* Minus what a given motion adds to the second equation of a mixed form, where rotations are large. */
+static OstStatus move_large_volume(const OstProblem *problem, double t, const double *u, const double *moved, double *g)
 {
     const OstPressureSpace *space = problem->pressures;
     const size_t nodes = 3 * (size_t)problem->mesh->node_count, owned = (size_t)space->owned;
@@ -228,20 +228,57 @@ static OstStatus move_volume(const OstProblem *problem, double t, const double *
     return ost_agree(problem->ctx, status);
 }
 
+/* Minus what a given motion, or a strain, adds to the second equation. */
+static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted, double *g)
+{
+    const OstInterest *interest = wanted->interest;
+    double *zero = NULL;
+    OstMaterialField field;
+    OstProblem strained;
+    if (interest->moved && !ost_problem_is_linear(problem))
+        return move_large_volume(problem, wanted->t, wanted->u, interest->moved, g);
+    if (!interest->moved)
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count)));
+    ost_problem_at_pressure(problem, NULL, &field, &strained);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = interest->strain;
+    OstStatus status = ost_pressure_volume(problem->pressures, &field, OST_FORMULATION_LINEAR, 1.0,
+                                           interest->moved ? interest->moved : zero, g, NULL);
+    for (OstLocal i = 0; i < problem->pressures->owned; i++)
+        g[i] = -g[i];
+    OST_FREE(zero);
+    return ost_agree(problem->ctx, status);
+}
+
+/* The forces of a strain, in steps.force. */
+static OstStatus strain_load(Search *search, double *strain)
+{
+    const OstProblem *problem = search->estimate->problem;
+    OstMaterialField field;
+    OstProblem strained;
+    ost_problem_at_pressure(problem, NULL, &field, &strained);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = strain;
+    memset(search->steps.force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *search->steps.force);
+    OST_TRY(ost_agree(problem->ctx, ost_eigenstrain_force(problem->mesh, &field, 1.0, search->steps.force)));
+    return ost_steps_take_rows(&search->steps, search->steps.q.rows);
+}
+
 /* steps.u: z, and its pressures, of tets, by both equations of a mixed form, to the solver's residual. */
 static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, double *of_tets)
 {
     const OstProblem *problem = search->estimate->problem;
     const OstPressureSpace *space = problem->pressures;
+    const OstInterest *interest = wanted->interest;
     OstSteps *steps = &search->steps;
     OstSolveReport report;
     double *g = NULL, *pressure = NULL;
     OstStatus status = OST_NEW(problem->ctx, &g, space->owned);
     OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
-    if (wanted->interest->moved)
-        OST_TRY_DONE(move_volume(problem, wanted->t, wanted->u, wanted->interest->moved, g));
-    OST_TRY_DONE(adjoint_load(search, wanted->interest, wanted->t, wanted->u));
+    OST_TRY_DONE(adjoint_volume(problem, wanted, g));
+    OST_TRY_DONE(interest->strain ? strain_load(search, interest->strain)
+                                  : adjoint_load(search, interest, wanted->t, wanted->u));
     OST_TRY_DONE(ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
                                         steps->z, &report));
     OST_TRY_DONE(ost_pressure_complete(space, pressure));
@@ -253,14 +290,14 @@ done:
     return status;
 }
 
-/* r: what z and its pressure leave on the functions. */
-static OstStatus mixed_adjoint_residual(Search *search, const OstProblem *state, const double *z)
+/* r: what z, its pressure and the strain of its load leave on the functions. */
+static OstStatus mixed_adjoint_residual(Search *search, const OstState *of)
 {
     OstSteps *steps = &search->steps;
     OstOperator at_state = search->estimate->stiffness;
     double *left = ost_steps_spare(steps);
-    at_state.problem = state;
-    ost_operator_small_force(&at_state, z, steps->force, left);
+    at_state.problem = of->problem;
+    ost_operator_small_force(&at_state, of->eigen_share, of->u, steps->force, left);
     memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
     return ost_search_take(search, left);
 }
@@ -270,7 +307,7 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
 {
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->node_count;
-    const double *moved = wanted->interest->moved;
+    const OstInterest *interest = wanted->interest;
     double *of_tets = NULL, *z = NULL;
     OstMaterialField field;
     OstProblem state;
@@ -281,12 +318,15 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     OST_TRY_DONE(solve_mixed_adjoint(search, wanted, of_tets));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     for (size_t i = 0; i < numbers; i++)
-        z[i] = search->steps.u[i] + (moved ? moved[i] : 0.0);
+        z[i] = search->steps.u[i] + (interest->moved ? interest->moved[i] : 0.0);
     ost_problem_at_pressure(problem, of_tets, &field, &state);
-    OST_TRY_DONE(mixed_adjoint_residual(search, &state, z));
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = interest->strain;
+    const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR};
+    OST_TRY_DONE(mixed_adjoint_residual(search, &of));
     OST_TRY_DONE(find_surplus(search, wanted));
     if (!search->steps.failed)
-        status = ost_pressure_error(search, &(OstState){&state, z, 0.0, OST_FORMULATION_LINEAR}, adjoint->pressure);
+        status = ost_pressure_error(search, &of, adjoint->pressure);
 done:
     OST_FREE(of_tets);
     OST_FREE(z);

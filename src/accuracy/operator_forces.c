@@ -332,10 +332,12 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
     return status;
 }
 
-void ost_operator_small_force(const OstOperator *operator, const double * u, double *force, double *of_functions)
+void ost_operator_small_force(const OstOperator *operator, double eigen_share, const double *u, double *force,
+                              double *of_functions)
 {
     Sum sum = {.operator= operator,
                .formulation = OST_FORMULATION_LINEAR,
+               .eigen_share = eigen_share,
                .u = u,
                .force = force,
                .of_functions = of_functions};

@@ -121,7 +121,7 @@ static OstStatus respond(Search *response, const OstProblem *at_pressure, const 
     OstOperator at = response->estimate->stiffness;
     double *left = ost_steps_spare(steps), square;
     at.problem = at_pressure;
-    ost_operator_small_force(&at, zero, steps->force, left);
+    ost_operator_small_force(&at, 0.0, zero, steps->force, left);
     for (size_t i = 0; i < 3 * (size_t)at_pressure->mesh->owned_nodes; i++)
         steps->force[i] = -steps->force[i];
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));

@@ -51,14 +51,6 @@ static int watches_stress(const OstProblem *problem, int is_mean)
     return any;
 }
 
-static int watches_reaction(const OstProblem *problem)
-{
-    int any = 0;
-    for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++)
-        any |= problem->scene->c->watches[w].kind == OST_WATCH_REACTION;
-    return any;
-}
-
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
 {
     const OstMesh *mesh = result->mesh;
@@ -152,7 +144,8 @@ static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult
     return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT ? OST_SUCCESS : status;
 }
 
-/* Of watched reactions, one for each quantity; by linear theory load cases, and a path's steps, share adjoint problems.
+/* Of watched reactions and mean stresses, one for each quantity; by linear theory load cases, and a path's steps, share
+ * adjoint problems.
  */
 static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
@@ -164,6 +157,8 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
+    OST_TRY(ost_mean_stresses_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
+                                   shares && !analysis->company ? kept : NULL, result->reactions));
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, shares ? kept : NULL, result->reactions);
 }
@@ -207,7 +202,7 @@ OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *resu
     OstEstimate *estimate = NULL;
     const OstProblem state = at_answer(analysis, result);
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
-    const int wants_reactions = !analysis->leaves_reactions && watches_reaction(analysis->problem);
+    const int wants_reactions = !analysis->leaves_reactions && ost_reactions_are_watched(analysis->problem);
     const int has_all = result->answer.known && !asks_of_quantity(analysis->problem) && !wants_reactions;
     const int needs_own = !has_all && !analysis->estimate;
     OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
@@ -221,7 +216,7 @@ OstStatus ost_analysis_find_reactions(OstAnalysis *analysis, OstResult *result)
 {
     OstEstimate *estimate = NULL;
     const OstProblem state = at_answer(analysis, result);
-    if (!analysis->leaves_reactions || !result->answer.known || !watches_reaction(analysis->problem))
+    if (!analysis->leaves_reactions || !result->answer.known || !ost_reactions_are_watched(analysis->problem))
         return OST_SUCCESS;
     analysis->leaves_reactions = 0;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);

@@ -109,6 +109,10 @@ ratios_hold("a thin plate", PLATE, "20, 20, 2", ((2, "10, 10, 1"),))
 ratios_hold("a cell", CELL, "8, 8, 8", ((1, "6, 6, 6"), (2, "3, 3, 3")))
 for material in "0.5", "0.499":
     ratios_hold(f"nu {material}", MIXED.replace("0.5}", material + "}"), "20, 3, 3", ((2, "10, 2, 2"),))
+# Statics: the mean axial stress of a bar that is loaded at its ends alone is the pull over its section. So are their errors.
+found, _ = watched(MIXED, 2, "10, 2, 2")
+for part in "value", "error":
+    check(abs(found["mean"][part] / -found["pull"][part] - 1) < 1e-4, f"{part} of mean stress and pull: {found}")
 ratios_hold("a moved end, nu 0.5", MOVED.replace("0.3}]", "0.5}]"), "20, 4, 4", ((2, "10, 2, 2"),))
 
 # Statics gives a reaction with the answer's pressure.

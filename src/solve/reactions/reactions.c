@@ -19,7 +19,9 @@ void ost_reactions_clear(OstReactions *kept)
         OST_FREE(kept->moved[k]);
         ost_adjoint_destroy(&kept->adjoint[k]);
     }
-    kept->count = 0;
+    for (int k = 0; k < kept->mean_count; k++)
+        ost_adjoint_destroy(&kept->of_mean[k]);
+    kept->count = kept->mean_count = 0;
 }
 
 static int any(const OstCase *c)
