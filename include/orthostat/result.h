@@ -61,7 +61,7 @@ typedef struct OstNewtonReport {
 typedef struct OstAnswerError {
     double energy_norm;  /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
     double relative;     /* that over |u + e|_E */
-    double displacement; /* largest |e| at a node, over the largest |u + e| */
+    double displacement; /* largest |e| at a node, over the largest |u + e|; NAN: not known, see docs/output.md */
     int known;           /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
     int region;          /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;

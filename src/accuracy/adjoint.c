@@ -23,20 +23,27 @@ static OstStatus out_of_balance(const OstProblem *problem, double t, const doubl
     return OST_SUCCESS;
 }
 
-/* Minus the force of a given motion where rotations are large, in steps.force: the stiffness at u changes within a
- * tet's edges, and the difference over so small a part of the body's size is as good as its derivative. */
-static OstStatus move_large(const Search *search, double t, const double *u, const double *moved)
+/* The stiffness at u changes within a tet's edges; the difference over so small a part of the body's size is as good as
+ * a derivative. */
+static OstStatus find_small_length(const OstProblem *problem, const double *moved, double *length)
 {
     static const double small = 1e-6;
-    const OstProblem *problem = search->estimate->problem;
-    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
     double low[3], high[3], side[3], most = ost_search_largest(3 * (size_t)problem->mesh->node_count, moved);
-    double *at = NULL, *load = NULL, *behind = NULL;
     OST_TRY(ost_max(problem->ctx, 1, &most));
     OST_TRY(ost_mesh_bounds(problem->mesh, low, high));
     for (int i = 0; i < 3; i++)
         side[i] = high[i] - low[i];
-    const double length = small * ost_norm3(side) / (most > 0.0 ? most : 1.0);
+    *length = small * ost_norm3(side) / (most > 0.0 ? most : 1.0);
+    return OST_SUCCESS;
+}
+
+/* Minus the force of a given motion where rotations are large, in steps.force. */
+static OstStatus move_large(const Search *search, double t, const double *u, const double *moved)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    double *at = NULL, *load = NULL, *behind = NULL, length;
+    OST_TRY(find_small_length(problem, moved, &length));
     OstStatus status = OST_NEW(problem->ctx, &at, 3 * (size_t)problem->mesh->node_count);
     OST_THEN(OST_NEW(problem->ctx, &load, owned));
     OST_THEN(OST_NEW(problem->ctx, &behind, owned));
@@ -143,22 +150,10 @@ static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
     return OST_SUCCESS;
 }
 
-/* The work of u's residual on e, the surplus of z. */
-static OstStatus work_on(Search *search, double t, const double *u, double *work)
-{
-    OstSteps *steps = &search->steps;
-    const double size = steps->size;
-    OST_TRY(ost_search_residual(search, t, u));
-    OST_TRY(ost_steps_dot(steps, &steps->r, &steps->e, work));
-    *work *= search->longer * size * steps->size * search->estimate->stiffness.unit;
-    return OST_SUCCESS;
-}
-
 /* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
-static OstStatus share_interest(const Search *search, const double *of_adjoint, double error, double *share)
+static OstStatus share_interest(const OstProblem *problem, const double *of_adjoint, double error, double *share)
 {
     const double least_of_sum = 0.1;
-    const OstProblem *problem = search->estimate->problem;
     double sum = 0.0;
     for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++) {
         share[tet] = sqrt(fmax(share[tet], 0.0) * fmax(of_adjoint[tet], 0.0));
@@ -170,37 +165,6 @@ static OstStatus share_interest(const Search *search, const double *of_adjoint, 
         share[tet] *= factor;
     return OST_SUCCESS;
 }
-
-OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                                const OstInterest *interest, double *error, double *tet_share)
-{
-    const OstProblem *problem = estimate->problem;
-    Search search = {0};
-    double square = 0.0, *of_adjoint = NULL;
-    *error = NAN;
-    OstStatus status = ost_search_move(estimate, u);
-    OST_THEN(ost_search_open(estimate, solver, &search));
-    OST_TRY_DONE(ost_agree(
-        problem->ctx, status == OST_SUCCESS ? OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets) : status));
-    search.of_adjoint = 1;
-    OST_TRY_DONE(solve_adjoint(&search, interest, t, u, 0.0));
-    OST_TRY_DONE(adjoint_residual(&search, interest));
-    OST_TRY_DONE(ost_search_iterate(&search, 0.0, &square));
-    if (search.steps.failed)
-        goto done;
-    OST_TRY_DONE(ost_search_displacement(&search));
-    OST_TRY_DONE(ost_search_share(&search, ost_search_true_square(&search, square), of_adjoint));
-    OST_TRY_DONE(work_on(&search, t, u, error));
-    if (interest->moved) /* a reaction is the work of u on z, on which the exact error does no work */
-        *error = -*error;
-    OST_TRY_DONE(share_interest(&search, of_adjoint, *error, tet_share));
-done:
-    OST_FREE(of_adjoint);
-    ost_steps_close(&search.steps);
-    return status;
-}
-
-/* --- the same for several loads --- */
 
 struct OstAdjoint {
     OstContext *ctx;
@@ -222,25 +186,100 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
     OST_FREE(*adjoint);
 }
 
+/* The adjoint problem that is wanted. */
+typedef struct Wanted {
+    const OstInterest *interest;
+    double t;
+    const double *u;
+    double share;      /* the error of its equations, of z; 0: to the solver's residual */
+    double *tet_share; /* owned_tets: each tet's share of the squared error of z is found too; or NULL */
+} Wanted;
+
+/* Steps for the surplus of z. */
+static OstStatus find_surplus(Search *search, const Wanted *wanted)
+{
+    double square;
+    OST_TRY(ost_search_iterate(search, 0.0, &square));
+    if (!wanted->tet_share || search->steps.failed)
+        return OST_SUCCESS;
+    OST_TRY(ost_search_displacement(search));
+    return ost_search_share(search, ost_search_true_square(search, square), wanted->tet_share);
+}
+
+/* Minus what a given motion adds to the second equation of a mixed form, where rotations are large. */
+static OstStatus move_large_volume(const OstProblem *problem, double t, const double *u, const double *moved, double *g)
+{
+    const OstPressureSpace *space = problem->pressures;
+    const size_t nodes = 3 * (size_t)problem->mesh->node_count, owned = (size_t)space->owned;
+    const double eigen_share = ost_problem_eigen_share(problem, t);
+    double *at = NULL, *ahead = NULL, length;
+    OST_TRY(find_small_length(problem, moved, &length));
+    OstStatus status = OST_NEW(problem->ctx, &at, nodes);
+    OST_THEN(OST_NEW(problem->ctx, &ahead, owned));
+    for (size_t i = 0; i < nodes && status == OST_SUCCESS; i++)
+        at[i] = u[i] + length * moved[i];
+    OST_THEN(ost_pressure_volume(space, problem->field, problem->formulation, eigen_share, at, ahead, NULL));
+    for (size_t i = 0; i < nodes && status == OST_SUCCESS; i++)
+        at[i] = u[i] - length * moved[i];
+    OST_THEN(ost_pressure_volume(space, problem->field, problem->formulation, eigen_share, at, g, NULL));
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        g[i] = (g[i] - ahead[i]) / (2.0 * length);
+    OST_FREE(at);
+    OST_FREE(ahead);
+    return ost_agree(problem->ctx, status);
+}
+
+/* Minus what a given motion, or a strain, adds to the second equation. */
+static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted, double *g)
+{
+    const OstInterest *interest = wanted->interest;
+    double *zero = NULL;
+    OstMaterialField field;
+    OstProblem strained;
+    if (interest->moved && !ost_problem_is_linear(problem))
+        return move_large_volume(problem, wanted->t, wanted->u, interest->moved, g);
+    if (!interest->moved)
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count)));
+    ost_problem_at_pressure(problem, NULL, &field, &strained);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = interest->strain;
+    OstStatus status = ost_pressure_volume(problem->pressures, &field, OST_FORMULATION_LINEAR, 1.0,
+                                           interest->moved ? interest->moved : zero, g, NULL);
+    for (OstLocal i = 0; i < problem->pressures->owned; i++)
+        g[i] = -g[i];
+    OST_FREE(zero);
+    return ost_agree(problem->ctx, status);
+}
+
+/* The forces of a strain, in steps.force. */
+static OstStatus strain_load(Search *search, double *strain)
+{
+    const OstProblem *problem = search->estimate->problem;
+    OstMaterialField field;
+    OstProblem strained;
+    ost_problem_at_pressure(problem, NULL, &field, &strained);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = strain;
+    memset(search->steps.force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *search->steps.force);
+    OST_TRY(ost_agree(problem->ctx, ost_eigenstrain_force(problem->mesh, &field, 1.0, search->steps.force)));
+    return ost_steps_take_rows(&search->steps, search->steps.q.rows);
+}
+
 /* steps.u: z, and its pressures, of tets, by both equations of a mixed form, to the solver's residual. */
-static OstStatus solve_mixed_adjoint(Search *search, const OstInterest *interest, double t, const double *u,
-                                     double *of_tets)
+static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, double *of_tets)
 {
     const OstProblem *problem = search->estimate->problem;
     const OstPressureSpace *space = problem->pressures;
+    const OstInterest *interest = wanted->interest;
     OstSteps *steps = &search->steps;
-    OstMaterialField field;
-    OstProblem without;
     OstSolveReport report;
     double *g = NULL, *pressure = NULL;
-    ost_problem_at_pressure(problem, NULL, &field, &without);
     OstStatus status = OST_NEW(problem->ctx, &g, space->owned);
     OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
-    OST_THEN(ost_pressure_volume(space, &field, OST_FORMULATION_LINEAR, 0.0, interest->moved, g, NULL));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
-    for (OstLocal i = 0; i < space->owned; i++)
-        g[i] = -g[i];
-    OST_TRY_DONE(adjoint_load(search, interest, t, u));
+    OST_TRY_DONE(adjoint_volume(problem, wanted, g));
+    OST_TRY_DONE(interest->strain ? strain_load(search, interest->strain)
+                                  : adjoint_load(search, interest, wanted->t, wanted->u));
     OST_TRY_DONE(ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
                                         steps->z, &report));
     OST_TRY_DONE(ost_pressure_complete(space, pressure));
@@ -252,62 +291,62 @@ done:
     return status;
 }
 
-/* r: what z and its pressure leave on the functions. `z` becomes the whole motion. */
-static OstStatus mixed_adjoint_residual(Search *search, const OstProblem *state, const double *z)
+/* r: what z, its pressure and the strain of its load leave on the functions. */
+static OstStatus mixed_adjoint_residual(Search *search, const OstState *of)
 {
     OstSteps *steps = &search->steps;
     OstOperator at_state = search->estimate->stiffness;
     double *left = ost_steps_spare(steps);
-    at_state.problem = state;
-    OST_TRY(ost_agree(state->ctx, ost_operator_force(&at_state, 0.0, z, steps->force, left, &search->energy)));
+    at_state.problem = of->problem;
+    ost_operator_small_force(&at_state, of->eigen_share, of->u, steps->force, left);
     memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
     return ost_search_take(search, left);
 }
 
 /* The surplus of z and of its pressure. */
-static OstStatus find_mixed(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u,
-                            OstAdjoint *adjoint)
+static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *adjoint)
 {
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->node_count;
-    double *of_tets = NULL, *z = NULL, square;
+    const OstInterest *interest = wanted->interest;
+    double *of_tets = NULL, *z = NULL;
     OstMaterialField field;
     OstProblem state;
     OstStatus status = OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count);
     OST_THEN(OST_NEW(problem->ctx, &z, numbers));
     OST_THEN(OST_NEW(problem->ctx, &adjoint->pressure, 4 * (size_t)problem->mesh->tet_count));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
-    OST_TRY_DONE(solve_mixed_adjoint(search, interest, t, u, of_tets));
+    OST_TRY_DONE(solve_mixed_adjoint(search, wanted, of_tets));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     for (size_t i = 0; i < numbers; i++)
-        z[i] = search->steps.u[i] + interest->moved[i];
+        z[i] = search->steps.u[i] + (interest->moved ? interest->moved[i] : 0.0);
     ost_problem_at_pressure(problem, of_tets, &field, &state);
-    OST_TRY_DONE(mixed_adjoint_residual(search, &state, z));
-    OST_TRY_DONE(ost_search_iterate(search, 0.0, &square));
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = interest->strain;
+    const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR};
+    OST_TRY_DONE(mixed_adjoint_residual(search, &of));
+    OST_TRY_DONE(find_surplus(search, wanted));
     if (!search->steps.failed)
-        status = ost_pressure_error(search, solver, &(OstState){&state, z, 0.0}, adjoint->pressure);
+        status = ost_pressure_error(search, &of, adjoint->pressure);
 done:
     OST_FREE(of_tets);
     OST_FREE(z);
     return status;
 }
 
-static OstStatus find_plain(Search *search, const OstInterest *interest, double t, const double *u, double share,
-                            OstAdjoint *adjoint)
+static OstStatus find_plain(Search *search, const Wanted *wanted, OstAdjoint *adjoint)
 {
-    double square;
-    OST_TRY(solve_adjoint(search, interest, t, u, share));
+    OST_TRY(solve_adjoint(search, wanted->interest, wanted->t, wanted->u, wanted->share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
-    OST_TRY(adjoint_residual(search, interest));
-    return ost_search_iterate(search, 0.0, &square);
+    OST_TRY(adjoint_residual(search, wanted->interest));
+    return find_surplus(search, wanted);
 }
 
-static OstStatus find_adjoint(Search *search, OstSolver *solver, const OstInterest *interest, double t, const double *u,
-                              double share, OstAdjoint *adjoint)
+static OstStatus find_adjoint(Search *search, const Wanted *wanted, OstAdjoint *adjoint)
 {
     search->of_adjoint = 1;
-    OST_TRY(search->estimate->problem->pressures ? find_mixed(search, solver, interest, t, u, adjoint)
-                                                 : find_plain(search, interest, t, u, share, adjoint));
+    OST_TRY(search->estimate->problem->pressures ? find_mixed(search, wanted, adjoint)
+                                                 : find_plain(search, wanted, adjoint));
     adjoint->size = search->longer * search->steps.size;
     memcpy(adjoint->e.rows, search->steps.e.rows, search->steps.rows * sizeof *adjoint->e.rows);
     memcpy(adjoint->e.functions, search->steps.e.functions,
@@ -315,13 +354,12 @@ static OstStatus find_adjoint(Search *search, OstSolver *solver, const OstIntere
     return OST_SUCCESS;
 }
 
-OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                             const OstInterest *interest, double share, OstAdjoint **adjoint)
+static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *wanted, OstAdjoint **adjoint)
 {
     const OstProblem *problem = estimate->problem;
     Search search = {0};
     *adjoint = NULL;
-    OstStatus status = ost_search_move(estimate, u);
+    OstStatus status = ost_search_move(estimate, wanted->u);
     OST_THEN(ost_search_open(estimate, solver, &search));
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
@@ -331,11 +369,17 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
         status = ost_agree(problem->ctx, status);
     }
-    OST_THEN(find_adjoint(&search, solver, interest, t, u, share, *adjoint));
+    OST_THEN(find_adjoint(&search, wanted, *adjoint));
     if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
     ost_steps_close(&search.steps);
     return status;
+}
+
+OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                             const OstInterest *interest, double share, OstAdjoint **adjoint)
+{
+    return create(estimate, solver, &(Wanted){interest, t, u, share, NULL}, adjoint);
 }
 
 OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error)
@@ -349,7 +393,8 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
     ost_steps_close(&search.steps);
     if (adjoint->pressure) {
         double of_pressure = 0.0;
-        const OstState state = {estimate->problem, u, ost_problem_eigen_share(estimate->problem, t)};
+        const OstProblem *problem = estimate->problem;
+        const OstState state = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation};
         OST_THEN(ost_pressure_work(estimate, &state, adjoint->pressure, &of_pressure));
         *error += of_pressure;
     }
@@ -359,4 +404,24 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint)
 {
     return adjoint->z;
+}
+
+OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
+                                const OstInterest *interest, double *error, double *tet_share)
+{
+    const OstProblem *problem = estimate->problem;
+    OstAdjoint *adjoint = NULL;
+    double *of_adjoint = NULL;
+    *error = NAN;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets)));
+    OstStatus status = create(estimate, solver, &(Wanted){interest, t, u, 0.0, of_adjoint}, &adjoint);
+    if (adjoint) {
+        OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, error));
+        if (!interest->moved) /* unlike a reaction, which is the work of u on z, on which the exact error does none */
+            *error = -*error;
+        OST_THEN(share_interest(problem, of_adjoint, *error, tet_share));
+    }
+    ost_adjoint_destroy(&adjoint);
+    OST_FREE(of_adjoint);
+    return status;
 }

@@ -5,11 +5,14 @@
 #include "accuracy/operator.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
+#include "element/large_rotation.h"
+#include "element/polar.h"
 #include "element/shape_functions.h"
 
 #include <string.h>
 
-/* Batches of tets with their functions, read and written: for accuracy/operator_forces.c. */
+/* Batches of tets with their functions, read and written: for accuracy/operator_forces.c and accuracy/pressure_error.c.
+ */
 
 enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
 
@@ -148,6 +151,26 @@ static inline void evaluate(const Cells *cells, const OstElement *element, int q
 {
     element->evaluate(cells->batch.x, &cells->rule->point[q], point);
     ost_complement_gradients(cells->nodes, cells->rule->point[q].at, point, gradient);
+}
+
+/* R at a point of the turned body. */
+static inline void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
+{
+    OstSimd slope[9];
+    OstPolar polar;
+    ost_displacement_gradient(cells->nodes, point, cells->base, slope);
+    ost_polar(slope, &polar);
+    ost_polar_rotation(&polar, rotation);
+}
+
+/* R' slope. */
+static inline void turn_back(const OstSimd rotation[9], OstSimd slope[9])
+{
+    OstSimd given[9];
+    memcpy(given, slope, sizeof given);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            slope[3 * i + j] = rotation[i] * given[j] + rotation[3 + i] * given[3 + j] + rotation[6 + i] * given[6 + j];
 }
 
 #endif

@@ -311,17 +311,17 @@ static OstStatus hand_out_all(Search *search, const OstProblem *state, const Ost
     return surplus->displacement ? hand_out(search, surplus->displacement) : OST_SUCCESS;
 }
 
-/* Of a mixed form by linear theory: of the errors of displacement and pressure, which the e at hand stands for. */
-static OstStatus hand_out_mixed(Search *search, OstSolver *solver, double t, const double *u, const OstSurplus *surplus)
+/* Of a mixed form: of the errors of displacement and pressure, which the e at hand stands for. */
+static OstStatus hand_out_mixed(Search *search, double t, const double *u, const OstSurplus *surplus)
 {
     const OstProblem *problem = search->estimate->problem;
-    const OstState of = {problem, u, ost_problem_eigen_share(problem, t)};
+    const OstState of = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation};
     double *of_tets = NULL;
     OstMaterialField field;
     OstProblem state;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count)));
     ost_problem_at_pressure(problem, of_tets, &field, &state);
-    OstStatus status = ost_pressure_error(search, solver, &of, of_tets);
+    OstStatus status = ost_pressure_error(search, &of, of_tets);
     OST_THEN(ost_search_displacement(search));
     OST_THEN(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
     OST_THEN(hand_out_all(search, &state, surplus));
@@ -349,9 +349,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(compare(&search, t, u, square, found));
         if (surplus->tet_error)
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
-        const int is_mixed = surplus->displacement && estimate->problem->pressures && !estimate->stiffness.turned_by;
-        OST_THEN(is_mixed ? hand_out_mixed(&search, solver, t, u, surplus)
-                          : hand_out_all(&search, estimate->problem, surplus));
+        const int is_mixed = surplus->displacement && estimate->problem->pressures;
+        OST_THEN(is_mixed ? hand_out_mixed(&search, t, u, surplus) : hand_out_all(&search, estimate->problem, surplus));
     }
     ost_steps_close(&search.steps);
     return status;

@@ -11,12 +11,15 @@ typedef struct OstInterest {
                      rotations are large, by how much less it does; or NULL */
     double
         *moved; /* of a reaction: 3 × node_count, a displacement that is 1 along the reaction at its nodes; or NULL */
+    double *strain; /* of a mean stress: 6 × tet_count, the eigenstrain (along material axes) whose forces are by how
+                       much it grows with each displacement, and with a mixed form's pressures; or NULL */
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
 } OstInterest;
 
-/* Collective. Makes that of a watched displacement or reaction. A length is taken along the vector as it is, or along x
- * if that is zero. Clear it also after a failure. */
+/* Collective. Makes that of a watched displacement or reaction, or of the mean over a region of a measure that is
+ * linear in the stress (whose value is not found). A length is taken along the vector as it is, or along x if that is
+ * zero. Clear it also after a failure. */
 OstStatus ost_interest_create(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                               OstInterest *interest);
 void ost_interest_clear(OstInterest *interest);
@@ -68,8 +71,8 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
 
-/* The adjoint problem of a reaction, solved once for all loads on the same supports; where rotations are large, that of
- * the stiffness at u. */
+/* The adjoint problem of a reaction, or of a mixed form's mean stress by linear theory, solved once for all loads on
+ * the same supports; where rotations are large, that of the stiffness at u. */
 typedef struct OstAdjoint OstAdjoint;
 
 /* Collective. *adjoint is NULL where none can be found. Its equations are solved to an error of this share of z in the
@@ -78,7 +81,8 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
                              const OstInterest *interest, double share, OstAdjoint **adjoint);
 void ost_adjoint_destroy(OstAdjoint **adjoint);
 
-/* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem. */
+/* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem; by how much a mean
+ * stress is smaller. */
 OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error);
 
 /* Local. What z has beside the given motion, 3 × owned_nodes; 0 where that is. */

@@ -6,14 +6,18 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "fields/stress_measure.h"
+#include "material/field_data.h"
 #include "mesh/nearest.h"
 
+#include <math.h>
 #include <string.h>
 
 void ost_interest_clear(OstInterest *interest)
 {
     OST_FREE(interest->load);
     OST_FREE(interest->moved);
+    OST_FREE(interest->strain);
 }
 
 /* The direction of the quantity: an axis, or that of the vector. */
@@ -129,10 +133,50 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     return status;
 }
 
+/* The strain whose product with a stress is the measure, along the tet's material axes. */
+static void find_strain(const OstMaterialField *field, OstLocal tet, OstStressMeasure measure, double strain[6])
+{
+    double axes[9], turned[9], of_world[6] = {0.0};
+    memset(strain, 0, 6 * sizeof *strain);
+    if (measure >= OST_STRESS_MEASURE_11 && measure <= OST_STRESS_MEASURE_31) {
+        strain[measure - OST_STRESS_MEASURE_11] = 1.0;
+        return;
+    }
+    for (int i = 0; i < 3 && measure == OST_STRESS_MEASURE_PRESSURE; i++)
+        of_world[i] = -1.0 / 3.0;
+    if (measure < OST_STRESS_MEASURE_11)
+        of_world[measure] = 1.0;
+    ost_field_axes(field, tet, axes);
+    for (int n = 0; n < 9; n++)
+        turned[n] = axes[3 * (n % 3) + n / 3];
+    ost_strain_to_world(of_world, turned, strain);
+}
+
+static OstStatus of_mean_stress(const OstProblem *problem, const OstWatch *watch, OstInterest *interest)
+{
+    const OstMesh *mesh = problem->mesh;
+    const int every = ost_is_every_region(watch->region);
+    double volume = 0.0;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->strain, 6 * (size_t)mesh->tet_count)));
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
+        if (!every && strcmp(mesh->regions.name[mesh->tet_region[tet]], watch->region) != 0)
+            continue;
+        find_strain(problem->field, tet, (OstStressMeasure)watch->component, interest->strain + 6 * (size_t)tet);
+        if (tet < mesh->owned_tets)
+            volume += fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &volume));
+    for (size_t i = 0; i < 6 * (size_t)mesh->tet_count; i++)
+        interest->strain[i] /= volume;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_interest_create(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                               OstInterest *interest)
 {
     *interest = (OstInterest){0};
+    if (watch->kind == OST_WATCH_STRESS)
+        return of_mean_stress(problem, watch, interest);
     return watch->kind == OST_WATCH_REACTION ? of_reaction(problem, watch, t, u, interest)
                                              : of_displacement(problem, watch, u, interest);
 }

@@ -69,6 +69,19 @@ static void take_stress(const OstElasticity *at_nodes, int nodes, const OstSimd 
     }
 }
 
+/* Of a mixed form. */
+static void add_pressure(const OstElasticity *at_nodes, int nodes, OstSimd *stress)
+{
+    for (int a = 0; a < nodes && at_nodes->mixed; a++) {
+        double place[4];
+        OstSimd pressure;
+        find_place(a, place);
+        ost_pressure_at(at_nodes, place, &pressure);
+        for (int p = 0; p < 6; p++)
+            stress[6 * a + p] += pressure * at_nodes->m[ost_elasticity_at(at_nodes, a)][p];
+    }
+}
+
 /* Stresses at the nodes of displacements whose F - I is there. */
 static void find_small(const OstElasticity *at_nodes, int nodes, const OstSimd *slope, OstSimd *stress)
 {
@@ -80,6 +93,7 @@ static void find_small(const OstElasticity *at_nodes, int nodes, const OstSimd *
             strain[6 * a + p] = p < 3 ? of[4 * i] : of[3 * i + j] + of[3 * j + i];
         }
     take_stress(at_nodes, nodes, strain, stress);
+    add_pressure(at_nodes, nodes, stress);
 }
 
 /* Cauchy's, of the consistent form: by how much it changes from `given`, in a frame that turns with the tet. */
@@ -93,25 +107,13 @@ static void find_large(const OstElasticity *at_nodes, int nodes, const OstSimd *
         ost_biot_strain_change(&polar[a], slope + 9 * a, change + 6 * a);
     }
     take_stress(at_nodes, nodes, change, of_stretch);
+    add_pressure(at_nodes, nodes, of_stretch);
     for (int a = 0; a < nodes; a++) {
         const OstSimd jacobian = polar[a].stretch[0] * polar[a].stretch[1] * polar[a].stretch[2];
         OstSimd piola[9];
         ost_biot_piola(&polar[a], of_stretch + 6 * a, piola);
         ost_kirchhoff_of_piola(piola, given + 9 * a, stress + 6 * a);
         ost_divide_by_volume(&jacobian, stress + 6 * a);
-    }
-}
-
-/* Of a mixed form. */
-static void add_pressure(const OstElasticity *at_nodes, int nodes, OstSimd *stress)
-{
-    for (int a = 0; a < nodes && at_nodes->mixed; a++) {
-        double place[4];
-        OstSimd pressure;
-        find_place(a, place);
-        ost_pressure_at(at_nodes, place, &pressure);
-        for (int p = 0; p < 6; p++)
-            stress[6 * a + p] += pressure * at_nodes->m[ost_elasticity_at(at_nodes, a)][p];
     }
 }
 
@@ -140,7 +142,6 @@ static void find_added(Visit *visit, OstSimd *found)
         slope[n] *= visit->factor;
     if (!base) {
         find_small(&visit->at_nodes, nodes, slope, found);
-        add_pressure(&visit->at_nodes, nodes, found);
         return;
     }
     OstSimd given[9 * OST_MAX_TET_NODES];

@@ -100,26 +100,7 @@ static inline void find_slope(const Cells *cells, const OstPoint *point, const O
         add_slope(w + 3 * k, gradient[k], slope);
 }
 
-/* R at a point of the turned body. */
-static inline void find_rotation(const Cells *cells, const OstPoint *point, OstSimd rotation[9])
-{
-    OstSimd slope[9];
-    OstPolar polar;
-    ost_displacement_gradient(cells->nodes, point, cells->base, slope);
-    ost_polar(slope, &polar);
-    ost_polar_rotation(&polar, rotation);
-}
-
-/* R' slope, and R slope. */
-static inline void turn_back(const OstSimd rotation[9], OstSimd slope[9])
-{
-    OstSimd given[9];
-    memcpy(given, slope, sizeof given);
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            slope[3 * i + j] = rotation[i] * given[j] + rotation[3 + i] * given[3 + j] + rotation[6 + i] * given[6 + j];
-}
-
+/* R slope. */
 static inline void turn(const OstSimd rotation[9], OstSimd slope[9])
 {
     OstSimd given[9];
@@ -291,8 +272,8 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
-    cells.batch.elasticity.line_suffices =
-        one->formulation == OST_FORMULATION_LINEAR && !ost_field_is_eigenstrained(one->operator->problem->field);
+    cells.batch.elasticity.line_suffices = one->formulation == OST_FORMULATION_LINEAR && !cells.turned_by &&
+                                           !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
         keep_points(element, at, &cells);
@@ -361,6 +342,18 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
         missing[i] = own[i] - missing[i];
     OST_FREE(own);
     return status;
+}
+
+void ost_operator_small_force(const OstOperator *operator, double eigen_share, const double *u, double *force,
+                              double *of_functions)
+{
+    Sum sum = {.operator= operator,
+               .formulation = OST_FORMULATION_LINEAR,
+               .eigen_share = eigen_share,
+               .u = u,
+               .force = force,
+               .of_functions = of_functions};
+    sum_forces(&sum);
 }
 
 /* A product with the stiffness: as ost_operator_apply. */

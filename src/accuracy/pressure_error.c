@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "element/large_rotation.h"
+#include "element/biot.h"
 
 #include <math.h>
 
@@ -14,11 +14,32 @@ enum { VERTICES = 4 };
 /* What is added to the error of the volume. */
 typedef struct Part {
     const OstOperator *operator; /* whose problem's field has the pressure */
+    OstFormulation formulation;  /* LINEAR: also of a small displacement about a body that has turned */
     const double *u;
     const float *w; /* or NULL */
     double factor;  /* of both */
     double eigen_share;
 } Part;
+
+static void find_strain(const Cells *cells, const Part *part, const OstPoint *point, OstSimd slope[9],
+                        OstSimd strain[6])
+{
+    if (part->formulation != OST_FORMULATION_LINEAR) {
+        OstPolar polar;
+        ost_polar(slope, &polar);
+        ost_biot_strain(&polar, strain);
+        return;
+    }
+    if (cells->turned_by) {
+        OstSimd rotation[9];
+        find_rotation(cells, point, rotation);
+        turn_back(rotation, slope);
+    }
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3, j = (i + 1) % 3;
+        strain[p] = part->factor * (p < 3 ? slope[4 * i] : slope[3 * i + j] + slope[3 * j + i]);
+    }
+}
 
 static void find_mode(const Cells *cells, const OstElement *element, int q, const Part *part, const OstSimd *u,
                       const OstSimd *w, OstPoint *point, OstSimd *mode)
@@ -31,10 +52,7 @@ static void find_mode(const Cells *cells, const OstElement *element, int q, cons
     for (int k = 0; k < cells->functions && part->w; k++)
         for (int n = 0; n < 9; n++)
             slope[n] += w[3 * k + n / 3] * gradient[k][n % 3];
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = (i + 1) % 3;
-        strain[p] = part->factor * (p < 3 ? slope[4 * i] : slope[3 * i + j] + slope[3 * j + i]);
-    }
+    find_strain(cells, part, point, slope, strain);
     ost_elastic_strain(elasticity, at, strain, elastic);
     ost_pressure_at(elasticity, cells->rule->point[q].at, &pressure);
     *mode = -elasticity->looseness * pressure;
@@ -84,12 +102,12 @@ static OstStatus find_pressures(Search *search, const OstState *of, double *volu
     ost_problem_at_pressure(problem, NULL, &none, &without);
     at_state.problem = of->problem;
     no_pressure.problem = &without;
-    add_volume(&(Part){&at_state, of->u, NULL, 1.0, of->eigen_share}, volume);
+    add_volume(&(Part){&at_state, of->formulation, of->u, NULL, 1.0, of->eigen_share}, volume);
     OST_TRY(ost_search_displacement(search));
     OST_TRY(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
-    add_volume(
-        &(Part){&no_pressure, search->steps.u, search->steps.e.functions, search->longer * search->steps.size, 0.0},
-        volume);
+    add_volume(&(Part){&no_pressure, OST_FORMULATION_LINEAR, search->steps.u, search->steps.e.functions,
+                       search->longer * search->steps.size, 0.0},
+               volume);
     for (size_t i = 0; i < VERTICES * (size_t)problem->mesh->tet_count; i++)
         if (problem->pressures->of_tet[i] >= 0)
             of_tets[i] = volume[i] / ost_field_giving_way(problem->field, problem->mesh->tet_region[i / VERTICES]);
@@ -103,9 +121,7 @@ static OstStatus respond(Search *response, const OstProblem *at_pressure, const 
     OstOperator at = response->estimate->stiffness;
     double *left = ost_steps_spare(steps), square;
     at.problem = at_pressure;
-    OstStatus status = ost_operator_force(&at, 0.0, zero, steps->force, left, &response->energy);
-    OST_THEN(ost_internal_force(at_pressure->mesh, at_pressure->field, 0.0, zero, steps->force, NULL));
-    OST_TRY(ost_agree(at_pressure->ctx, status));
+    ost_operator_small_force(&at, 0.0, zero, steps->force, left);
     for (size_t i = 0; i < 3 * (size_t)at_pressure->mesh->owned_nodes; i++)
         steps->force[i] = -steps->force[i];
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
@@ -128,7 +144,7 @@ static void add_response(const Search *response, Search *search)
     search->steps.failed |= response->steps.failed;
 }
 
-OstStatus ost_pressure_error(Search *search, OstSolver *solver, const OstState *of, double *of_tets)
+OstStatus ost_pressure_error(Search *search, const OstState *of, double *of_tets)
 {
     const OstMesh *mesh = search->estimate->problem->mesh;
     double *volume = NULL, *zero = NULL;
@@ -140,7 +156,7 @@ OstStatus ost_pressure_error(Search *search, OstSolver *solver, const OstState *
     OST_TRY_DONE(ost_agree(mesh->ctx, status));
     OST_TRY_DONE(find_pressures(search, of, volume, of_tets));
     ost_problem_at_pressure(search->estimate->problem, of_tets, &field, &at_pressure);
-    status = ost_search_open(search->estimate, solver, &response);
+    status = ost_search_open(search->estimate, search->steps.solver, &response);
     OST_THEN(respond(&response, &at_pressure, zero));
     if (status == OST_SUCCESS)
         add_response(&response, search);
@@ -159,7 +175,7 @@ OstStatus ost_pressure_work(const OstEstimate *estimate, const OstState *of, con
     at_state.problem = of->problem;
     *work = 0.0;
     OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &volume, VERTICES * (size_t)mesh->tet_count)));
-    add_volume(&(Part){&at_state, of->u, NULL, 1.0, of->eigen_share}, volume);
+    add_volume(&(Part){&at_state, of->formulation, of->u, NULL, 1.0, of->eigen_share}, volume);
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
         const double *p = of_tets + VERTICES * (size_t)tet, *left = volume + VERTICES * (size_t)tet;
         const double size = fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));

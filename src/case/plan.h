@@ -30,6 +30,11 @@ typedef struct OstPlanLevels {
     double transient;
 } OstPlanLevels;
 
+/* What multigrid coarsens. Where cells of quadratic tets are far longer than a wall is thick, it takes aggregates of
+ * their nodes in place of the linear tets (algebra/multigrid/metric.c), and where they are longer still the columns of
+ * nodes through the wall, which are not coarsened further (algebra/aggregation/columns.h). */
+typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS } OstCoarsening;
+
 typedef struct OstPlan {
     OstEffects effects;
     OstSolverFacts facts; /* as far as they are known */
@@ -37,9 +42,11 @@ typedef struct OstPlan {
     OstGlobal nodes, tets; /* of the mesh as given */
     int quadratic;
     OstMeshCounts counts;
-    double slenderness;   /* of a shape's cells: length over the body's thickness; 0: not known */
-    double cells_across;  /* and cells through that */
-    int bends;            /* would a thin wall bend? Not a curved one under loads that are spread: it is a membrane */
+    double slenderness;  /* of a shape's cells: length over the body's thickness; 0: not known */
+    double cells_across; /* and cells through that */
+    int bends; /* would a thin wall bend? Not a curved one under pressure: it is a membrane, as a closed one is anyway
+                */
+    OstCoarsening coarsening;
     OstPlanLevels levels; /* zeros where multigrid is not planned */
     OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */
     int least_ranks;      /* predicted: on fewer ranks, one would hold more than it can number */

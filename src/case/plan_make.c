@@ -111,7 +111,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
-    plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE);
+    plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
+                  (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);
     ost_plan_memory(c, ranks, plan);
 }

@@ -130,7 +130,7 @@ static OstStatus read_norm(const OstYaml *yaml, const OstYamlNode *node, OstVeri
     return OST_SUCCESS;
 }
 
-/* One positive number for each step of the ladder. If words are allowed, `exact` is read as NAN (the elements contain
+/* One positive number for each step. If words are allowed, `exact` is read as NAN (the elements contain
  * the solution) and `locks` as OST_RATE_LOCKED. */
 static OstStatus read_limits(const OstYaml *yaml, const OstYamlNode *node, const OstVerify *verify, int words_allowed,
                              double *limits)

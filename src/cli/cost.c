@@ -61,8 +61,8 @@ static error_t read_list(struct argp_state *state, const char *name, const char 
             return 0;
         at = end + 1;
     }
-    argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_COST_MOST_VALUES,
-               text);
+    argp_error(state, "--%s takes up to %d %s with commas between them, found '%s'", name, OST_COST_MOST_VALUES,
+               integers ? "whole numbers from 0 on" : "numbers", text);
     return EINVAL;
 }
 

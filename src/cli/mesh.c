@@ -29,7 +29,7 @@ enum { MOST_REFINEMENTS = 8 };
 typedef struct Request {
     const char *in, *out;
     const char *text['z' + 1];
-    int refine, order;
+    long refine, order;
     double merge;
 } Request;
 
@@ -52,9 +52,9 @@ static error_t parse(int key, char *value, struct argp_state *state)
         return ARGP_ERR_UNKNOWN;
     request->text[key] = value ? value : "";
     if (key == 'r')
-        request->refine = (int)strtol(value, &end, 10);
+        request->refine = strtol(value, &end, 10);
     else if (key == 'e')
-        request->order = (int)strtol(value, &end, 10);
+        request->order = strtol(value, &end, 10);
     else if (key == 'm')
         request->merge = strtod(value, &end);
     if ((end && (*end || end == value)) || request->refine < 0 || request->refine > MOST_REFINEMENTS ||

@@ -38,6 +38,7 @@ static const struct argp solve_argp = {
 typedef struct Run {
     const OstArguments *arguments;
     OstCase *c;
+    OstAdaptLimits limits; /* where an accuracy is asked for */
     OstScene *scene;
     OstPath *path;         /* NULL if the case has none */
     OstAdaption *adaption; /* NULL if the case asks for no accuracy; scene and result are its own */
@@ -147,10 +148,8 @@ static OstStatus read_limits(const Run *run, OstAdaptLimits *limits)
 /* An answer that is not as accurate as it was asked to be is written, and told by the exit status. */
 static OstStatus solve_accurately(Run *run)
 {
-    OstAdaptLimits limits;
     char words[OST_LONGEST_ADAPT_WORDS];
-    OST_TRY(read_limits(run, &limits));
-    const OstStatus status = ost_adapt(run->c, &limits, &run->adaption);
+    const OstStatus status = ost_adapt(run->c, &run->limits, &run->adaption);
     run->scene = run->adaption ? ost_adaption_scene(run->adaption) : NULL;
     run->result = run->adaption ? ost_adaption_result(run->adaption) : NULL;
     if (status != OST_SUCCESS)
@@ -205,9 +204,7 @@ static OstStatus solve_as_given(Run *run)
 
 static OstStatus solve_cases(const Run *run)
 {
-    OstAdaptLimits limits;
-    OST_TRY(read_limits(run, &limits));
-    const OstSolveCases how = {run->output, run->arguments->text['j'], run->arguments->text['k'] != NULL, &limits};
+    const OstSolveCases how = {run->output, run->arguments->text['j'], run->arguments->text['k'] != NULL, &run->limits};
     return ost_solve_cases(run->c, &how);
 }
 
@@ -216,6 +213,7 @@ static OstStatus solve(OstContext *ctx, void *input)
     Run run = {.arguments = input};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_cli_read(ctx, run.arguments, &run.c));
+    OST_TRY_DONE(read_limits(&run, &run.limits));
     OST_TRY_DONE(ost_choose_output(run.c, run.arguments->text['o'], run.output));
     memcpy(run.file, run.output, sizeof run.file);
     OST_TRY_DONE(check_files(&run));

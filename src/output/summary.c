@@ -89,13 +89,14 @@ static void print_solve(const OstResult *result)
 /* The error of the answer first: that of the equations is not the whole of it. */
 static void print_accuracy(const OstAnswerError *answer, const OstChecks *checks)
 {
-    char energy[24], displacement[24];
-    if (answer->known)
-        printf("  accuracy         answer about %s off in energy norm, %s in the largest displacement; equations "
-               "solved to "
-               "%.0e\n",
-               percent(answer->relative, energy), percent(answer->displacement, displacement),
-               isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
+    char text[24];
+    if (!answer->known)
+        return;
+    printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
+    if (!isnan(answer->displacement))
+        printf(", %s in the largest displacement", percent(answer->displacement, text));
+    printf("; equations solved to %.0e\n",
+           isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
 }
 
 static void print_errors(const OstChecks *checks)

@@ -36,7 +36,7 @@ typedef struct OstInterestError {
     double sum;            /* of the shares: |error|, or more where parts of it cancel */
 } OstInterestError;
 
-/* Of a watched reaction whose adjoint problem is solved (solve/reactions/). */
+/* Of a watched reaction, or mean stress, whose adjoint problem is solved (solve/reactions/). */
 typedef struct OstWatchedReaction {
     int known;
     double missing; /* to be added to the sum over the nodes: the share of what the solve left out of balance */

@@ -256,4 +256,5 @@ with open(os.path.join(folder, "turned.mesh"), "w") as stream:
     stream.write(open(os.path.join(folder, "two.mesh")).read().replace("6 7 8 5 2", "6 8 7 5 2"))
 check(run("mesh", "turned.mesh", folder=folder).exit_code == 2, "an inverted tet is refused")
 check(inspect("turned.mesh", "--orient", "--merge", "1e-6")["tets"] == 2, "and turned where that is asked for")
-check(run("mesh", "turned.mesh", "--refine", "9", folder=folder).exit_code == 2, "nine refinements are refused")
+for times in "9", "-1", str(2**32 + 1):
+    check(run("mesh", "turned.mesh", "--refine", times, folder=folder).exit_code == 2, f"{times} refinements are refused")

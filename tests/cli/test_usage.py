@@ -29,6 +29,20 @@ def a_full_standard_output_is_no_success(folder):
               f"{words} > /dev/full: exit {process.returncode}, {process.stderr}")
 
 
+def numbers_out_of_range_are_refused(folder):
+    """Also where they would not be used: nobody learns of them otherwise."""
+    wrong = {"solve": ("--max-time=-3", "--max-time=0", "--max-time=nan", "--max-memory=0", "--max-memory=-1"),
+             "cost": ("--max-time=-3", "--orders=0", "--refinements=-1", "--tolerances=0", "--accuracies=-1", "--load-steps=0"),
+             "scale": ("--max-time=0", "--ranks=0", "--ranks=-2", "--sizes=-5", "--network=latency=-1")}
+    for command, options in wrong.items():
+        for option in options:
+            refused = run(command, "bar.yaml", option, folder=folder)
+            name, value = option.split("=")[0], option.split("=")[-1]
+            said = " ".join(refused.errors.split())
+            check(refused.exit_code == 2 and not refused.output and value in said, f"{command} {option}: {said}")
+            check(name in said or f"not {value}" in said, f"{command} {option}: {said}")
+
+
 def one_process_needs_nobody(folder):
     """Open MPI names the interfaces it finds, where it looks for any; a user's own choice of transports stands. No folder of Open
     MPI's is made, which processes that run at the same time would share."""
@@ -167,6 +181,7 @@ def main():
     impossible_sizes_are_told_by_their_limit(folder)
     a_case_comes_from_standard_input(folder)
     one_process_needs_nobody(folder)
+    numbers_out_of_range_are_refused(folder)
 
 
 main()

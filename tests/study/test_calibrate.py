@@ -30,6 +30,26 @@ class Calibrate(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done)
         return json.loads(done.stdout)
 
+    def test_memory_of_thin_plates_of_quadratic_tets(self):
+        """Multigrid takes aggregates of their nodes in place of the linear tets, or columns of them."""
+        for thickness, cells in (0.004, 40), (0.002, 32):
+            case = os.path.join(self.folder, "plate.yaml")
+            with open(case, "w", encoding="ascii") as stream:
+                stream.write(f"""mesh: {{block: {{size: [1, 1, {thickness}], divisions: [{cells}, {cells}, 1]}}}}
+element: {{order: 2}}
+materials: [{{region: all, youngs_modulus: 1e9, poissons_ratio: 0.3}}]
+constraints: [{{on: {{boundary: [xmin, xmax, ymin, ymax]}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{boundary: zmax}}, pressure: 1}}]
+large_rotation: off
+solver: {{method: metric}}
+output: {{file: {self.folder}/plate.vtkhdf}}
+""")
+            told = json.loads(self.run_program("explain", case, "--json").stdout)["bytes"]["in_all"]
+            done = self.run_program("solve", "-q", case, "--json", "-")
+            self.assertEqual(done.returncode, 0, done)
+            ratio = told / json.loads(done.stdout)["ledger"]["peak_bytes"]
+            self.assertTrue(1 / 1.15 < ratio < 1.15, (thickness, ratio))
+
     def test_the_rates_are_measured_kept_and_used(self):
         self.assertIn("typical of", self.explain()["rates"])
         done = self.run_program("cost", "--calibrate", "--json", "-")

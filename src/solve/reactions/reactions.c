@@ -19,7 +19,9 @@ void ost_reactions_clear(OstReactions *kept)
         OST_FREE(kept->moved[k]);
         ost_adjoint_destroy(&kept->adjoint[k]);
     }
-    kept->count = 0;
+    for (int k = 0; k < kept->mean_count; k++)
+        ost_adjoint_destroy(&kept->of_mean[k]);
+    kept->count = kept->mean_count = 0;
 }
 
 static int any(const OstCase *c)
@@ -45,7 +47,7 @@ int ost_reactions_allow_stop(const OstProblem *problem)
 int ost_reactions_have_adjoint(const OstProblem *problem)
 {
     return problem->scene && any(problem->scene->c) && is_work(problem) &&
-           (ost_problem_is_linear(problem) || (problem->conservative && !problem->pressures));
+           (ost_problem_is_linear(problem) || problem->conservative);
 }
 
 /* One watched reaction of an answer. */

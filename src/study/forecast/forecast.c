@@ -18,9 +18,11 @@ static const double usual_poisson = 0.3;
  * are 0.2 to 7 times as long as the wall is thick (docs/performance.md). */
 static const double slender[2] = {0.22, 0.35}, stopped_slender[2] = {0.27, 0.65}, slender_power = 1.5;
 
-/* Where cells are longer than this many thicknesses, multigrid takes aggregates of quadratic tets' nodes
- * (algebra/multigrid/metric.c): so many times the setup, the bytes of an iteration, and iterations. */
-static const double longest = 5.0, aggregated_setup = 7.5, aggregated_iteration = 3.7, aggregated_bending = 1.35;
+/* By what multigrid coarsens: so many times the setup, the bytes of an iteration and, of what does not bend and what
+ * does, iterations. The latter are of quadratic tets' nodes and of their columns alone. */
+static const struct {
+    double setup, iteration, membrane, bending;
+} coarsened[3] = {{1.0, 1.0, 0.0, 0.0}, {3.4, 2.6, 1.35, 3.2}, {6.5, 3.7, 1.0, 1.0}};
 
 static const double plain_factor = 4.0; /* of ML's own aggregates */
 static const double usual_digits = 8.0;
@@ -58,15 +60,18 @@ static double hardness(const OstSolverFacts *facts, double incompressible, doubl
     return pow(fmax(volume, 1.0), incompressible) * pow(fmax(facts->anisotropy, 1.0), uneven);
 }
 
-static int is_aggregated(const OstPlan *plan)
+static OstCoarsening coarsening(const OstPlan *plan)
 {
-    return is_multigrid(plan) && plan->quadratic && plan->slenderness >= longest;
+    return is_multigrid(plan) ? plan->coarsening : OST_COARSEN_TETS;
 }
 
 static double bending(const OstPlan *plan, const double by_order[2])
 {
     const double slenderness = plan->bends ? plan->slenderness / fmax(plan->cells_across, 1.0) : 0.0;
-    return is_aggregated(plan) ? aggregated_bending : 1.0 + by_order[plan->quadratic] * pow(slenderness, slender_power);
+    const OstCoarsening of = coarsening(plan);
+    if (of != OST_COARSEN_TETS)
+        return plan->bends ? coarsened[of].bending : coarsened[of].membrane;
+    return 1.0 + by_order[plan->quadratic] * pow(slenderness, slender_power);
 }
 
 double ost_forecast_iterations(const OstPlan *plan)
@@ -101,11 +106,10 @@ void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations,
     work[OST_STAGE_SETUP] = product_operations * counts->vertices * levels->columns * levels->columns +
                             factor_operations * levels->coarsest * levels->coarsest * levels->coarsest +
                             (plan->quadratic ? quadratic_operations * counts->nodes : 0.0);
-    if (is_aggregated(plan))
-        work[OST_STAGE_SETUP] *= aggregated_setup;
+    work[OST_STAGE_SETUP] *= coarsened[coarsening(plan)].setup;
     if (!is_multigrid(plan))
         work[OST_STAGE_SETUP] = plan->bytes_solver;
-    work[OST_STAGE_SOLVE] = iterations * iteration_bytes(plan) * (is_aggregated(plan) ? aggregated_iteration : 1.0);
+    work[OST_STAGE_SOLVE] = iterations * iteration_bytes(plan) * coarsened[coarsening(plan)].iteration;
     const double dearer = ost_effect_on(&plan->effects, OST_EFFECT_VARYING_AXES) ? varying_axes : 1.0;
     work[OST_STAGE_ESTIMATE] = estimate->on ? dearer * (iteration_bytes(plan) + estimate->bytes) : 0.0;
     work[OST_STAGE_REST] = plan->bytes_matrix + dearer * ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
