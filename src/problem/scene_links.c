@@ -158,8 +158,9 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
 
 /* --- tied faces --- */
 
+/* Counts the node in *follows where it follows a face. */
 static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, double within, OstLocal node,
-                          OstLinks *links)
+                          OstLinks *links, OstGlobal *follows)
 {
     static const double nothing[3] = {0.0};
     const double *x = scene->mesh->coordinates + 3 * (size_t)node;
@@ -184,6 +185,7 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
         leader[leaders].number = found.number[k];
         memcpy(leader[leaders++].weight, found.weight[k], sizeof found.weight[k]);
     }
+    (*follows)++;
     return ost_links_add(links, node, leaders, leader, x, nothing);
 }
 
@@ -192,6 +194,7 @@ static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint,
     OstFaceSearch *search = NULL;
     OstLocal count = 0, face_count = 0;
     OstLocal *nodes = NULL, *faces = NULL;
+    OstGlobal follows = 0;
     int nodes_per_face = 3;
     double within = constraint->tolerance, diagonal = 0.0;
     OstStatus status = find_diagonal(scene->mesh, &diagonal);
@@ -201,8 +204,14 @@ static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint,
     OST_THEN(ost_face_search_create(scene->mesh, face_count, faces, nodes_per_face, &search));
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         if (nodes[i] < scene->mesh->owned_nodes)
-            status = tie_node(scene, search, within, nodes[i], links);
+            status = tie_node(scene, search, within, nodes[i], links, &follows);
     status = ost_agree(scene->ctx, status);
+    OST_THEN(ost_sum_numbers(scene->ctx, 1, &follows));
+    if (status == OST_SUCCESS && follows == 0)
+        ost_warn(scene->ctx,
+                 "%s:%d: this tie joins nothing: each selected vertex is one of the faces of tied_to; leave it out, or "
+                 "name the faces of the other part",
+                 scene->c->path, constraint->line);
     ost_face_search_destroy(&search);
     OST_FREE(nodes);
     OST_FREE(faces);

@@ -22,7 +22,7 @@ version=$(sed -nE 's/^project\(orthostat VERSION ([0-9.]+).*/\1/p' "$ORTHOSTAT_S
 package=$folder/cpack/orthostat_${version}_$(dpkg --print-architecture).deb
 [ "$(dpkg-deb --field "$package" Version)" = "$version" ] || fail "the package is not of version $version"
 dpkg-deb --field "$package" Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//' >"$folder/depends"
-for needed in openmpi-bin libc6 libopenmpi3 libhdf5-openmpi libmumps libmetis5 libtrilinos-ml libyaml; do
+for needed in openmpi-bin libc6 libopenmpi libhdf5-openmpi libmumps libmetis5 libtrilinos-ml libyaml; do
     grep -q "^$needed" "$folder/depends" || fail "the package does not depend on $needed: $(tr '\n' ' ' <"$folder/depends")"
 done
 while read -r needed; do # libopenblas0 stands for any of libopenblas0-serial, -pthread and -openmp

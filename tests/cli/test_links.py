@@ -260,6 +260,7 @@ def what_cannot_be_is_refused():
             (cell + "large_rotation: on\n", "linear theory alone"),
             (tied, "away from the faces that it is tied to"),
             (tied.replace("b_xmin}, tied", "b_xmax}, tied"), "tolerance:"),
+            (tied.replace("b_xmin}, tied", "a_xmax}, tied"), "this tie joins nothing"),
             (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
             (bar("[4, 0.5, 0.5]").replace("boundary: xmax}, rigid", "vertices: [1, 2, 3]}, rigid"), "not on one line"),
             (bar("[4, 0.5, 0.5]").replace("{boundary: xmin}, disp", "{boundary: ymin}, disp"), "is constrained, and follows"),
