@@ -59,11 +59,13 @@ typedef struct OstNewtonReport {
 /* The estimated error of the answer that the mesh and its elements make (not that of the equations, which OstChecks
  * has): the distance from the solution of the continuous problem. */
 typedef struct OstAnswerError {
-    double energy_norm;  /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
-    double relative;     /* that over |u + e|_E */
-    double displacement; /* largest |e| at a node, over the largest |u + e|; NAN: not known, see docs/output.md */
-    int known;           /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
-    int region;          /* of the mesh, the one with the largest share of the squared error; and that share */
+    double energy_norm;        /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
+    double relative;           /* that over |u + e|_E */
+    double displacement;       /* largest |e| at a node, over the largest |u + e| */
+    int displacement_is_least; /* 1: the true one may be up to five times that, as multigrid finds e slowly and nothing
+                                  is watched */
+    int known;                 /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
+    int region;                /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;
     double place[3]; /* centroid of the tet with the largest share */
 } OstAnswerError;

@@ -93,9 +93,8 @@ static void print_accuracy(const OstAnswerError *answer, const OstChecks *checks
     if (!answer->known)
         return;
     printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
-    if (!isnan(answer->displacement))
-        printf(", %s in the largest displacement", percent(answer->displacement, text));
-    printf("; equations solved to %.0e\n",
+    printf(", %s%s in the largest displacement; equations solved to %.0e\n",
+           answer->displacement_is_least ? "at least " : "", percent(answer->displacement, text),
            isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
 }
 

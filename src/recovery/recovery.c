@@ -63,6 +63,8 @@ OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansV
     const int turns = result->formulation != OST_FORMULATION_LINEAR && (needed & ALONG_AXES) != 0;
     int is_new = 0;
     *visit = NULL;
+    if (!asks(needed, OST_FIELD_STRAIN) && !asks(needed, OST_FIELD_STRESS) && !asks(needed, OST_FIELD_ENERGY))
+        return OST_SUCCESS;
     ost_ledger_enter(result->ctx, OST_EFFECT_RECOVERY);
     OstStatus status = make_room(result, asks(needed, OST_FIELD_STRAIN), 6, &result->strain, &is_new);
     OST_THEN(make_room(result, asks(needed, OST_FIELD_STRESS), 6, &result->stress, &is_new));

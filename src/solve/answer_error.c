@@ -192,7 +192,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     if (result->answer.known && !analysis->leaves_reactions)
         OST_TRY_DONE(estimate_reactions(analysis, estimate, t, result));
     if (!result->surplus && !analysis->problem->pressures && result->solve.condition_estimate > slow)
-        result->answer.displacement = NAN;
+        result->answer.displacement_is_least = 1;
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
