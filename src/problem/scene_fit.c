@@ -28,9 +28,9 @@ static void tell(const OstCase *c, const OstMesh *mesh, const OstMisfits *misfit
     if (misfits->faces > 0)
         ost_warn(c->ctx,
                  "%s: %lld faces of tets lie on faces of others without fitting them, from (%g, %g, %g) to (%g, %g, "
-                 "%g): the vertices of one side are not those of the other, as of tet %lld%s on tet %lld%s. Nothing "
-                 "holds such faces together between vertices that they have in common. Make a mesh whose neighbours "
-                 "share whole faces, or join parts by tied_to",
+                 "%g): their vertices differ, as of tet %lld%s on tet %lld%s. There the body may open: only vertices "
+                 "in common hold it together. Make a mesh whose neighbours share whole faces, or join parts by "
+                 "tied_to",
                  c->path, (long long)misfits->faces, misfits->low[0], misfits->low[1], misfits->low[2],
                  misfits->high[0], misfits->high[1], misfits->high[2], (long long)misfits->tet,
                  ost_cell_words(mesh, misfits->tet, cells[0]), (long long)misfits->neighbour,
