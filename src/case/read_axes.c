@@ -66,7 +66,7 @@ static OstStatus read_fixed(const OstYaml *yaml, const OstYamlNode *node, OstCas
         return ost_yaml_raise(yaml, node, "found %d rows, expected three: e1, e2, e3", count);
     const OstYamlNode *row = ost_yaml_first(yaml, node);
     for (int i = 0; i < 3; i++, row = ost_yaml_next(yaml, row))
-        OST_TRY(ost_yaml_numbers(yaml, row, 3, axes->fixed + 3 * (size_t)i));
+        OST_TRY(ost_yaml_direction(yaml, row, axes->fixed + 3 * (size_t)i));
     return OST_SUCCESS;
 }
 

@@ -4,6 +4,14 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+static OstStatus read_component(const OstYaml *yaml, const OstYamlNode *item, int *constrained, double *value)
+{
+    *constrained = !ost_yaml_says(yaml, item, "free");
+    if (ost_yaml_says(yaml, item, "null") || ost_yaml_says(yaml, item, "~"))
+        return ost_yaml_raise_type(yaml, item, "a number or the word free", "");
+    return *constrained ? ost_yaml_number(yaml, item, value) : OST_SUCCESS;
+}
+
 /* Three components, each a number or the word free. */
 static OstStatus read_components(const OstYaml *yaml, const OstYamlNode *node, int constrained[3], double value[3])
 {
@@ -13,11 +21,8 @@ static OstStatus read_components(const OstYaml *yaml, const OstYamlNode *node, i
     if (count != 3)
         return ost_yaml_raise_type(yaml, node, expected, "");
     const OstYamlNode *item = ost_yaml_first(yaml, node);
-    for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item)) {
-        constrained[i] = !ost_yaml_says(yaml, item, "free");
-        if (constrained[i])
-            OST_TRY(ost_yaml_number(yaml, item, &value[i]));
-    }
+    for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item))
+        OST_TRY(read_component(yaml, item, &constrained[i], &value[i]));
     return OST_SUCCESS;
 }
 
@@ -37,10 +42,9 @@ static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node,
         return ost_yaml_raise_type(yaml, node, expected, "");
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < 3; i++, item = ost_yaml_next(yaml, item)) {
-        constraint->constrained[i] = !ost_yaml_says(yaml, item, "free");
-        constraint->exact[i] = ost_yaml_says(yaml, item, "exact");
-        if (constraint->constrained[i] && !constraint->exact[i])
-            OST_TRY(ost_yaml_number(yaml, item, &constraint->displacement[i]));
+        constraint->exact[i] = constraint->constrained[i] = ost_yaml_says(yaml, item, "exact");
+        if (!constraint->exact[i])
+            OST_TRY(read_component(yaml, item, &constraint->constrained[i], &constraint->displacement[i]));
     }
     if (!constraint->constrained[0] && !constraint->constrained[1] && !constraint->constrained[2])
         return ost_yaml_raise(yaml, node,

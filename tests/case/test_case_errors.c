@@ -251,6 +251,8 @@ static void bad_conditions_are_refused(void **state)
                    "4:37: every component is free, so this constraint constrains nothing; leave it out");
     assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [fre, 0, 0]}\n",
                    "4:38: constraints[0].displacement[0]: found 'fre', expected a number");
+    assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [null, 0, 0]}\n",
+                   "4:38: constraints[0].displacement[0]: found 'null', expected a number or the word free");
     assert_refused(LOAD("traction: [1, 0, 0]"), "4:5: 'traction' needs 'on': where it acts");
     assert_refused(LOAD("on: {all: true}, gravity: [0, 0, 1]"),
                    "4:10: 'gravity' acts in the volume and has no 'on'; 'region: NAME' restricts it");

@@ -196,11 +196,13 @@ static void axes_of_one_frame_are_read(void **state)
 {
     (void)state;
     const double turned[9] = {0, 1, 0, -1, 0, 0, 0, 0, 1}; /* by 90 degrees about z */
-    static const char *const forms[] = {"fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]", "euler: {degrees: [90, 0, 0]}",
+    static const char *const forms[] = {"fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]",
+                                        "fixed: [[0, 2, 0], [-3, 0, 0], [0, 0, 1]]", "euler: {degrees: [90, 0, 0]}",
                                         "euler: {degrees: [0, 0, 90], sequence: XYZ}",
                                         "quaternion: [0.70710678118654752, 0, 0, 0.70710678118654752]"};
-    static const OstAxesKind kinds[] = {OST_AXES_FIXED, OST_AXES_EULER, OST_AXES_EULER, OST_AXES_QUATERNION};
-    for (int f = 0; f < 4; f++) {
+    static const OstAxesKind kinds[] = {OST_AXES_FIXED, OST_AXES_FIXED, OST_AXES_EULER, OST_AXES_EULER,
+                                        OST_AXES_QUATERNION};
+    for (int f = 0; f < 5; f++) {
         const OstAxesSpec *axes = read_axes(forms[f]);
         assert_int_equal(axes->kind, kinds[f]);
         for (int i = 0; i < 9; i++)
