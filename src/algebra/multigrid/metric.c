@@ -15,10 +15,12 @@
 #include <stdio.h>
 
 /* Linear tets whose edges cross a stiff direction lock: their energy is far above that of the quadratic tets in the
- * same bending, so that they correct little. Iterations to 1e-8 at a ratio of 1000 on unstructured meshes of 15,000 to
- * 280,000 unknowns (misalignment 2.9 to 5.6): 61 to 160 over linear tets, 30 to 55 over aggregates of quadratic ones;
- * on tubes that follow the axes (1.00 to 1.05) 10, 31, 23 and 13, 17, 23, at up to twice the time. */
-const double ost_metric_misaligned = 1.5;
+ * same bending, so that they correct little. Gears, brackets, spindles and pins of 22,000 to 136,000 unknowns,
+ * iterations to 1e-8 over linear tets and over aggregates of quadratic ones: 24 to 63 and 12 to 27 at a misalignment
+ * of 1.2 to 2.5 (ratios of 10 to 300), 65 to 167 and 24 to 49 at 2.8 to 4.5 (1000). Setup takes 4 to 25 times as long
+ * without linear tets, and 1.5 to 5 times the memory. */
+const double ost_metric_misaligned = 2.5;
+static const double slow_from = 1.5;            /* linear tets correct slowly where edges are further off */
 static const double quadratic_aggregate = 14.0; /* of 16: 38 iterations become 41 */
 enum { MISALIGNED_MORE_DEGREE = 2 };
 
@@ -40,6 +42,7 @@ struct OstMetric {
     OstCycle *cycle;
     OstScaling *linear_scaling; /* of the linear tets, for quadratic ones */
     int over_linear;            /* are they a level? */
+    int is_slow;                /* are they one, and edges off the stiff directions? */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -170,6 +173,7 @@ static OstStatus skip_linear(OstMetric *metric, const OstMetricGraph *graph, con
     OST_TRY(find_length(graph, facts, &length));
     const int locks = length > longest;
     *skip = metric->options.method == OST_METHOD_STRONG || misalignment > ost_metric_misaligned || locks;
+    metric->is_slow = !*skip && misalignment > slow_from;
     if (!*skip)
         return OST_SUCCESS;
     set_options_without_linear(&metric->options, locks);
@@ -259,6 +263,11 @@ OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverG
 int ost_metric_is_over_linear(const OstMetric *metric)
 {
     return metric->over_linear;
+}
+
+int ost_metric_is_slow(const OstMetric *metric)
+{
+    return metric->is_slow;
 }
 
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)

@@ -26,6 +26,9 @@ void ost_metric_destroy(OstMetric **metric);
 /* Local. Are linear tets the first coarse level of quadratic ones? */
 int ost_metric_is_over_linear(const OstMetric *metric);
 
+/* Local. Are they, though edges cross the stiff directions? Then a cycle leaves more of an error. */
+int ost_metric_is_slow(const OstMetric *metric);
+
 /* Local. Takes the smoother's degree and ratio from `options` and raises the eigenvalue estimates; the levels and the
  * smoothers' blocks stay. */
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options);
