@@ -30,10 +30,11 @@ typedef struct OstPlanLevels {
     double transient;
 } OstPlanLevels;
 
-/* What multigrid coarsens. Where cells of quadratic tets are far longer than a wall is thick, it takes aggregates of
- * their nodes in place of the linear tets (algebra/multigrid/metric.c), and where they are longer still the columns of
- * nodes through the wall, which are not coarsened further (algebra/aggregation/columns.h). */
-typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS } OstCoarsening;
+/* What multigrid coarsens. Where cells of quadratic tets are far longer than a wall is thick, or their edges cross
+ * stiff directions, it takes aggregates of their nodes in place of the linear tets (algebra/multigrid/metric.c), and
+ * where cells are longer still the columns of nodes through the wall, which are not coarsened further
+ * (algebra/aggregation/columns.h). */
+typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS, OST_COARSEN_CROSSED } OstCoarsening;
 
 typedef struct OstPlan {
     OstEffects effects;
