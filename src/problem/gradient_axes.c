@@ -241,6 +241,21 @@ done:
     return status;
 }
 
+/* Those that an isotropic material has no use for, which no potential is solved for. */
+OstStatus ost_scene_check_gradients(const OstScene *scene)
+{
+    for (int m = 0; m < scene->c->material_count; m++) {
+        const OstCaseMaterial *stated = &scene->c->materials[m];
+        OstSupports *supports = NULL;
+        if (stated->axes.kind != OST_AXES_GRADIENT || !stated->material.isotropic)
+            continue;
+        const OstStatus status = prescribe_potentials(scene, &stated->axes, stated->axes_place, &supports);
+        ost_supports_destroy(&supports);
+        OST_TRY(status);
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes)
 {
     OstContext *ctx = scene->ctx;
@@ -253,7 +268,7 @@ OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAx
     OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &u, 3 * (size_t)scene->mesh->node_count)));
     OST_TRY_DONE(solve_potentials(scene, system, u));
-    OST_TRY_DONE(axes_from_potentials(scene, region, spec, u, axes));
+    OST_TRY_DONE(ost_case_located(scene->c, stated->axes_place, axes_from_potentials(scene, region, spec, u, axes)));
 done:
     OST_FREE(u);
     ost_system_destroy(&system);

@@ -126,6 +126,17 @@ OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials,
     return create_field(mesh, NULL, materials, axes, tet_axes, field);
 }
 
+/* Where the one material with axes states them, or else the case alone. */
+static OstStatus locate_axes(const OstCase *c, OstStatus status)
+{
+    OstPlace place = {1, 1};
+    int stated = 0;
+    for (int m = 0; m < c->material_count; m++)
+        if (c->materials[m].axes_place.line > 0 && stated++ == 0)
+            place = c->materials[m].axes_place;
+    return ost_case_located(c, stated == 1 ? place : (OstPlace){1, 1}, status);
+}
+
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
 {
     OstContext *ctx = scene->ctx;
@@ -133,9 +144,11 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     const OstMesh *mesh = scene->mesh;
     double *gradient_axes = NULL;
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
+    OST_THEN(ost_scene_check_gradients(scene));
     OST_THEN(make_axes(scene, materials, &gradient_axes));
-    OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
-                          gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
+    if (status == OST_SUCCESS)
+        status = locate_axes(scene->c, create_field(mesh, effects, materials->material, materials->axes,
+                                                    gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
     OST_FREE(gradient_axes);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_REGIONS))
         status = ost_agree(ctx, ost_scene_set_modulus(scene));

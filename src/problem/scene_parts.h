@@ -48,6 +48,9 @@ OstShapeSurface ost_scene_surface(const OstCase *c);
  * problem. Fills `axes` (9 a tet) for the region's tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
 
+/* Collective. Do the boundaries exist that isotropic materials name for gradients? */
+OstStatus ost_scene_check_gradients(const OstScene *scene);
+
 /* Collective. Reads the fields of the mesh file that the case's materials name into the chunk. */
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);
 
