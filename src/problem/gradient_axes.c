@@ -208,12 +208,15 @@ static void drop_parallel(const OstMesh *mesh, const Slope *first, Slope *second
 
 static OstStatus raise_for_tet(const OstScene *scene, int region, OstLocal tet)
 {
+    const char *name = scene->mesh->regions.name[region];
     char reason[512];
     snprintf(reason, sizeof reason, "%s", ost_error_text(scene->ctx));
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                     "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
-                     "component of the region, and, for two, lie across each other",
-                     scene->mesh->regions.name[region], (long long)scene->mesh->tet_label[tet], reason);
+    return ost_case_located(
+        scene->c, ost_case_material_of(scene->c, name)->axes_place,
+        OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                  "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
+                  "component of the region, and, for two, lie across each other",
+                  name, (long long)scene->mesh->tet_label[tet], reason));
 }
 
 static OstStatus axes_from_potentials(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,
@@ -268,7 +271,7 @@ OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAx
     OST_TRY_DONE(ost_system_create(scene->mesh, supports, &system));
     OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &u, 3 * (size_t)scene->mesh->node_count)));
     OST_TRY_DONE(solve_potentials(scene, system, u));
-    OST_TRY_DONE(ost_case_located(scene->c, stated->axes_place, axes_from_potentials(scene, region, spec, u, axes)));
+    OST_TRY_DONE(axes_from_potentials(scene, region, spec, u, axes));
 done:
     OST_FREE(u);
     ost_system_destroy(&system);

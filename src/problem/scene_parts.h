@@ -30,6 +30,9 @@ OstStatus ost_scene_read_cell_axes(const OstCase *c, OstMeshChunk *chunk);
 OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file,
                               OstSceneMaterials *materials);
 
+/* Local. Puts the place where the one material with axes states them, or else the case alone, before a failure. */
+OstStatus ost_scene_locate_axes(const OstCase *c, OstStatus status);
+
 /* Collective. The second half of that: partitions, distributes and refines a chunk, which is consumed, and changes it
  * to the case's order. */
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
