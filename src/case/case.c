@@ -88,7 +88,7 @@ static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-/* What moves a distributing coupling is found by superposition. */
+/* What moves a distributing coupling is found by superposition; estimates take it as a given force. */
 static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->load_count; i++) {
@@ -101,6 +101,12 @@ static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
                              "%s:%d: a distributing coupling with a given motion is solved by linear theory, on a body "
                              "that is held elsewhere; leave out '%s'",
                              yaml->path, c->loads[i].line, without);
+        const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
+        if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: the error of '%.80s' is not known where a distributing coupling is moved, as its "
+                             "force is looked for too; leave 'of' out",
+                             yaml->path, c->loads[i].line, asked->name);
     }
     return OST_SUCCESS;
 }

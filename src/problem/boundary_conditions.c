@@ -165,7 +165,8 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
     OST_THEN(ost_scene_links(scene, table, *supports));
     for (int i = 0; i < scene->c->spring_count && status == OST_SUCCESS; i++)
         status = add_spring(scene, &scene->c->springs[i], *supports);
-    OST_THEN(ost_supports_complete(*supports));
+    if (status == OST_SUCCESS)
+        status = at_line(scene->c, 1, ost_supports_complete(*supports));
     if (status != OST_SUCCESS)
         ost_supports_destroy(supports);
     return status;

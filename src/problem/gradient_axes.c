@@ -208,12 +208,15 @@ static void drop_parallel(const OstMesh *mesh, const Slope *first, Slope *second
 
 static OstStatus raise_for_tet(const OstScene *scene, int region, OstLocal tet)
 {
+    const char *name = scene->mesh->regions.name[region];
     char reason[512];
     snprintf(reason, sizeof reason, "%s", ost_error_text(scene->ctx));
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
-                     "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
-                     "component of the region, and, for two, lie across each other",
-                     scene->mesh->regions.name[region], (long long)scene->mesh->tet_label[tet], reason);
+    return ost_case_located(
+        scene->c, ost_case_material_of(scene->c, name)->axes_place,
+        OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                  "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
+                  "component of the region, and, for two, lie across each other",
+                  name, (long long)scene->mesh->tet_label[tet], reason));
 }
 
 static OstStatus axes_from_potentials(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,
@@ -239,6 +242,21 @@ done:
     free_slope(&slope[0]);
     free_slope(&slope[1]);
     return status;
+}
+
+/* Those that an isotropic material has no use for, which no potential is solved for. */
+OstStatus ost_scene_check_gradients(const OstScene *scene)
+{
+    for (int m = 0; m < scene->c->material_count; m++) {
+        const OstCaseMaterial *stated = &scene->c->materials[m];
+        OstSupports *supports = NULL;
+        if (stated->axes.kind != OST_AXES_GRADIENT || !stated->material.isotropic)
+            continue;
+        const OstStatus status = prescribe_potentials(scene, &stated->axes, stated->axes_place, &supports);
+        ost_supports_destroy(&supports);
+        OST_TRY(status);
+    }
+    return OST_SUCCESS;
 }
 
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes)

@@ -117,13 +117,13 @@ static OstStatus create_field(const OstMesh *mesh, const OstEffects *effects, co
     OST_THEN(ost_field_create(ctx, effects, mesh->regions.count, materials, axes, mesh->tet_count, mesh->tet_region,
                               mesh->tet_label, centroids, tet_axes, field));
     OST_FREE(centroids);
-    return ost_agree(ctx, status);
+    return status;
 }
 
 OstStatus ost_field_create_on(const OstMesh *mesh, const OstMaterial *materials, const OstAxesSpec *axes,
                               const double *tet_axes, OstMaterialField **field)
 {
-    return create_field(mesh, NULL, materials, axes, tet_axes, field);
+    return ost_agree(mesh->ctx, create_field(mesh, NULL, materials, axes, tet_axes, field));
 }
 
 static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
@@ -133,9 +133,13 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     const OstMesh *mesh = scene->mesh;
     double *gradient_axes = NULL;
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
+    OST_THEN(ost_scene_check_gradients(scene));
     OST_THEN(make_axes(scene, materials, &gradient_axes));
-    OST_THEN(create_field(mesh, effects, materials->material, materials->axes,
-                          gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
+    if (status == OST_SUCCESS)
+        status = ost_scene_locate_axes(scene->c,
+                                       create_field(mesh, effects, materials->material, materials->axes,
+                                                    gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
+    status = ost_agree(ctx, status);
     OST_FREE(gradient_axes);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_REGIONS))
         status = ost_agree(ctx, ost_scene_set_modulus(scene));

@@ -402,8 +402,11 @@ OstStatus ost_scene_links(const OstScene *scene, int table, OstSupports *support
     if (!any)
         return OST_SUCCESS;
     OST_TRY(ost_agree(scene->ctx, ost_links_create(scene->mesh, &supports->links)));
-    for (int i = 0; i < c->constraint_count; i++)
+    supports->links->path = c->path;
+    for (int i = 0; i < c->constraint_count; i++) {
+        supports->links->line = c->constraints[i].line;
         if (ost_constraint_links(&c->constraints[i]))
             OST_TRY(add(scene, &c->constraints[i], table, supports->links));
+    }
     return OST_SUCCESS;
 }

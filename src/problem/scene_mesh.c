@@ -84,11 +84,22 @@ typedef struct Source {
     const OstSceneMaterials *materials;
 } Source;
 
+OstStatus ost_scene_locate_axes(const OstCase *c, OstStatus status)
+{
+    OstPlace place = {1, 1};
+    int stated = 0;
+    for (int m = 0; m < c->material_count; m++)
+        if (c->materials[m].axes_place.line > 0 && stated++ == 0)
+            place = c->materials[m].axes_place;
+    return ost_case_located(c, stated == 1 ? place : (OstPlace){1, 1}, status);
+}
+
 /* By a field on the chunk, in which regions without known axes are isotropic. */
 static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const double *centroids, double *metric)
 {
     OstContext *ctx = chunk->ctx;
-    const OstSceneMaterials *materials = ((const Source *)data)->materials;
+    const Source *source = data;
+    const OstSceneMaterials *materials = source->materials;
     const int regions = chunk->regions.count;
     OstMaterialField *field = NULL;
     OstMaterial *material = NULL;
@@ -104,7 +115,7 @@ static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const 
         ost_field_metric(field, t, metric + 6 * (size_t)t);
     ost_field_destroy(&field);
     OST_FREE(material);
-    return status;
+    return ost_scene_locate_axes(source->c, status);
 }
 
 static double stiffest(const OstMaterial *material)

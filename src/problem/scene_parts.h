@@ -30,6 +30,9 @@ OstStatus ost_scene_read_cell_axes(const OstCase *c, OstMeshChunk *chunk);
 OstStatus ost_scene_make_mesh(const OstCase *c, OstMesh **mesh, OstFileMaterials **from_file,
                               OstSceneMaterials *materials);
 
+/* Local. Puts the place where the one material with axes states them, or else the case alone, before a failure. */
+OstStatus ost_scene_locate_axes(const OstCase *c, OstStatus status);
+
 /* Collective. The second half of that: partitions, distributes and refines a chunk, which is consumed, and changes it
  * to the case's order. */
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
@@ -47,6 +50,9 @@ OstShapeSurface ost_scene_surface(const OstCase *c);
  * mean direction around them. Both are solved at once, as components of a displacement, by the solver of the elastic
  * problem. Fills `axes` (9 a tet) for the region's tets. Account OST_EFFECT_GRADIENT_AXES. */
 OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
+
+/* Collective. Do the boundaries exist that isotropic materials name for gradients? */
+OstStatus ost_scene_check_gradients(const OstScene *scene);
 
 /* Collective. Reads the fields of the mesh file that the case's materials name into the chunk. */
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);

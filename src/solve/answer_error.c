@@ -94,23 +94,26 @@ static OstProblem at_answer(const OstAnalysis *analysis, const OstResult *result
 }
 
 /* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
- * squared error in the norm of the energy. */
+ * squared error in the norm of the energy. The mesh makes none of a reaction that statics gives. */
 static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     const OstProblem state = at_answer(analysis, result);
     const OstWatch *watch = &state.scene->c->watches[state.scene->c->interest - 1];
     const OstLinear *linear = analysis->work;
     OstInterestError *found = &result->interest;
+    OstWatchedReaction by_statics = {0};
+    OST_TRY(ost_reactions_by_statics(&state, watch, t, result->displacement, &by_statics));
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &found->share, result->mesh->owned_tets)));
+    const double part = by_statics.known ? 0.0 : watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0;
     for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
-        found->share[tet] = (watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0) * result->tet_error[tet];
+        found->share[tet] = part * result->tet_error[tet];
     if (watch->kind == OST_WATCH_STRAIN_ENERGY) {
         OST_TRY(ost_problem_energy(&state, t, result->displacement, &found->value));
         found->error = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
     } else {
         OstInterest interest;
         OstStatus status = ost_interest_create(&state, watch, t, result->displacement, &interest);
-        if (status == OST_SUCCESS)
+        if (status == OST_SUCCESS && !by_statics.known)
             status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
                                            &found->error, found->share);
         found->value = interest.value;
@@ -120,7 +123,9 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
     for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
         found->sum += found->share[tet];
     OST_TRY(ost_sum(result->ctx, 1, &found->sum));
-    found->watch = isnan(found->error) ? NULL : watch;
+    const int has_none =
+        watch->kind == OST_WATCH_REACTION && !by_statics.known && !ost_reactions_have_adjoint(analysis->problem);
+    found->watch = isnan(found->error) || has_none ? NULL : watch;
     return OST_SUCCESS;
 }
 

@@ -77,14 +77,16 @@ void ost_path_destroy(OstPath **path)
     OST_FREE(*path);
 }
 
-/* Done once, whatever the number of steps. Where a checkpoint brings what was solved, or linear theory is not wanted
- * any more, only the solver is made. */
+/* Done once, whatever the number of steps, unless linear theory is not wanted any more. What a checkpoint brings has no
+ * solver, which error estimates and checks go on with: it is solved for again. */
 static OstStatus solve_linearly(OstPath *path)
 {
-    if (!path->analysis->work)
+    const int begins = !path->analysis->work;
+    if (begins)
         OST_TRY(ost_analysis_prepare(path->analysis));
-    if (path->linear.count > 0 || path->nonlinear)
+    if (path->nonlinear || (path->linear.count > 0 && !begins))
         return OST_SUCCESS;
+    ost_superposition_release(&path->linear);
     path->solved_linearly = ost_superposition_create(path->analysis, &path->linear);
     return path->linear.count > 0 ? OST_SUCCESS : path->solved_linearly;
 }

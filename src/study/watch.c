@@ -21,6 +21,8 @@ static const double near_enough = 0.1;
 static const double worth_words = 1e-3;
 static const double most_off = 0.1;
 
+static const char force_is_unknown[] = "the force of a moved coupling is looked for too";
+
 /* An error below this share is rounding, as is a reaction of the body's. */
 static const double rounding = 1e-12;
 
@@ -163,15 +165,29 @@ OstStatus ost_energy_scale(const OstResult *result, double *scale)
     return OST_SUCCESS;
 }
 
+/* The force that moves a coupling has an error too, of which the surplus knows nothing. */
+static int is_moved_by_coupling(const OstScene *scene)
+{
+    return scene->drive != NULL;
+}
+
+static int has_given_forces(const OstCase *c)
+{
+    int some = 0;
+    for (int i = 0; i < c->load_count; i++)
+        some |= c->loads[i].kind != OST_LOAD_DISTRIBUTING;
+    return some;
+}
+
 /* A body that loads alone strain has less energy than the exact answer, by half the square of the error; one that
  * displacements alone strain has more. Where both act, or an eigenstrain, or springs, there is no such rule. */
 static double energy_error(const OstScene *scene, const OstResult *result)
 {
     const OstEffects *effects = &scene->plan.effects;
-    const int is_moved = ost_effect_on(effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
+    const int is_moved = ost_effect_on(effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) || is_moved_by_coupling(scene);
     const int is_other = ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN) || scene->c->spring_count > 0;
     if (!result->answer.known || result->formulation != OST_FORMULATION_LINEAR || is_other ||
-        (is_moved && scene->c->load_count > 0))
+        (is_moved && has_given_forces(scene->c)))
         return NAN;
     const double half = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
     return is_moved ? -half : half;
@@ -190,8 +206,6 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 {
     if (scene->c->free_body)
         return "a free body has none";
-    if (scene->drive)
-        return "the force of a moved coupling is looked for too";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
                                                          : "its adjoint problem was not solved, or a pressure that "
                                                            "follows makes it unsymmetric";
@@ -204,6 +218,8 @@ static const char *find_why(const OstScene *scene, const OstResult *result, cons
         return ost_plan_writes(scene->c, OST_FIELD_ERROR) ? "the error of the answer is not estimated" : NULL;
     if (!result->answer.known)
         return "that of the answer is not";
+    if (is_moved_by_coupling(scene) && watch->kind != OST_WATCH_STRAIN_ENERGY)
+        return force_is_unknown;
     switch (watch->kind) {
     case OST_WATCH_STRAIN_ENERGY:
         return why_no_energy(scene, result);
@@ -254,6 +270,8 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
+    if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || watch->kind == OST_WATCH_STRESS))
+        watched->error = NAN;
     watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
     watched->exact = find_exact(watch, watched);
     return OST_SUCCESS;

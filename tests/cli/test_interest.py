@@ -43,9 +43,21 @@ for scene, names in (PULLED, ("middle", "tip")), (MOVED, ("middle", "pull")):
             check(abs(fine[name]["value"] - found["corrected"]) < 0.4 * abs(missing), f"{name}: corrected {found}")
             check("with its error added" in done.output, done.output)
 
-# A given load's whole reaction, -0.1, is right on every mesh. The estimate's products are in single precision.
-report, _ = watched(PULLED, "{of: pull}")
-check(abs(report["watched"]["pull"]["error"]) < 1e-8 * 0.1, f"a reaction without error: {report['watched']['pull']}")
+# A given load's whole reaction, -0.1, is right on every mesh, of the mixed form too: no mesh is refined for it.
+for nu, order in (0.3, 1), (0.5, 2):
+    report, done = watched({**PULLED, "nu": nu}, "{relative_error: 0.01, of: pull}", order=order)
+    pull = report["watched"]["pull"]
+    check(abs(pull["corrected"] + 0.1) < 1e-9 and pull["error"] == 0, f"a reaction without error: {pull}")
+    check(len(report["adaption"]["levels"]) == 1 and report["adaption"]["met"] and "statics" in done.output, f"{report['adaption']}")
+
+# The force of a moved coupling has an error of its own: none is known but the strain energy's, which falls with it.
+coupled = {"nu": 0.3, "supports": f"[{HELD}]",
+           "loads": "[{on: {boundary: xmax}, distributing: {at: [11, 0.5, 0.5], displacement: [free, free, 0.2]}}]"}
+fine = watched(coupled, "{relative_residual: 1e-9}", 1, 2)[0]["watched"]["energy_of_strain"]["value"]
+found = watched(coupled, "{of: energy}", order=2)[0]["watched"]
+check(found["tip"]["error"] is None and "moved coupling" in found["tip"]["error_not_known"], f"{found['tip']}")
+energy = found["energy_of_strain"]
+check(0.6 < energy["error"] / (fine - energy["value"]) < 1.5 and energy["error"] < 0, f"{energy}, exact {fine}")
 
 # The same on several ranks.
 one = watched(MOVED, "{of: pull}", order=2)[0]["watched"]["pull"]["error"]
@@ -134,8 +146,14 @@ for one, load in zip(both, (LIGHT, HEAVY), strict=True):
         check(one["solver"]["stopped"] and abs(found["value"] / alone[name]["value"] - 1) < 1e-4 and
               abs(found["error"] - alone[name]["error"]) < 0.1 * abs(alone[name]["error"]), f"{one['load_case']}, {name}: {found}, alone {alone[name]}")
 
-for wrong, said in ("{of: nobody}", "not watched"), ("{of: [tip]}", "expected a text"):
+# Nor that of a reaction where a pressure follows a free rim.
+text = CASE.format(accuracy="{relative_error: 0.1, of: pull}", refine=1, order=1, large="on", **PULLED)
+done, _, _ = solve(text.replace("xmax}, total_force: [0, 0, 0.1]", "zmax}, pressure: 0.01, follows: true"), folder=folder)
+check(done.exit_code == 1 and "cannot be estimated" in done.errors and "a pressure that follows" in done.output, done.errors)
+
+for wrong, said, scene in (("{of: nobody}", "not watched", PULLED), ("{of: [tip]}", "expected a text", PULLED),
+                           ("{of: pull}", "the error of 'pull' is not known", coupled)):
     with open(f"{folder}/wrong.yaml", "w", encoding="utf-8") as stream:
-        stream.write(CASE.format(accuracy=wrong, refine=1, order=1, large="off", **PULLED))
+        stream.write(CASE.format(accuracy=wrong, refine=1, order=1, large="off", **scene))
     done = run("solve", "wrong.yaml", folder=folder)
     check(done.exit_code == 2 and said in done.errors, f"{wrong}: {done.errors}")

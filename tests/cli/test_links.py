@@ -254,7 +254,7 @@ def what_cannot_be_is_refused():
     tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
     for text, words in (
             (cell.replace(f", {held}", ""), "can move"),
-            (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "is constrained, and follows"),
+            (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
             (cell + "large_rotation: on\n", "linear theory alone"),
@@ -263,7 +263,7 @@ def what_cannot_be_is_refused():
             (tied.replace("b_xmin}, tied", "a_xmax}, tied"), "this tie joins nothing"),
             (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
             (bar("[4, 0.5, 0.5]").replace("boundary: xmax}, rigid", "vertices: [1, 2, 3]}, rigid"), "not on one line"),
-            (bar("[4, 0.5, 0.5]").replace("{boundary: xmin}, disp", "{boundary: ymin}, disp"), "is constrained, and follows"),
+            (bar("[4, 0.5, 0.5]").replace("{boundary: xmin}, disp", "{boundary: ymin}, disp"), "and is constrained besides"),
             (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}") + "path: {steps: 2}\n", "no path"),
             (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}").replace("  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), "turn")):
         for ranks in (2,):

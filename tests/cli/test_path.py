@@ -122,6 +122,18 @@ for ranks in (1, 2):
     for name in NAMES:
         check(found[name] == expected[name], f"{name} has other bytes after {killed} kills on {ranks} ranks")
 
+# --- by linear theory, with a pressure as an unknown or without ---
+LINEAR = CASE.replace("large_rotation: on", "large_rotation: off").replace("[12, 4, 4]", "[6, 2, 2]")
+for text in (LINEAR, LINEAR.replace("ratio: 0.3", "ratio: 0.5") + "element: {order: 2}\n", LINEAR + "accuracy: {relative_residual: 1e-9}\n"):
+    for ranks in (1, 2):
+        folder = folder_with_case(text)
+        done = run("solve", "bar.yaml", "-q", ranks=ranks, folder=folder)
+        check(done.exit_code == 0, done.errors)
+        expected = contents(folder)
+        done = run("solve", "bar.yaml", "--resume", ranks=ranks, folder=folder)
+        check(done.exit_code == 0 and "3 of 4 steps are done" in done.errors, done.errors)
+        check(contents(folder) == expected, f"a linear path that was resumed on {ranks} ranks left other bytes")
+
 # --- what is refused ---
 for text, ranks, words in ((CASE.replace("large_rotation: on", "large_rotation: on\nformulation: classical"), 2,
                             "it was made with formulation: consistent, and this run has formulation: classical"),

@@ -7,6 +7,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +63,7 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
                          label);
     OST_TRY(make_room(links, links->count + 1));
     OstLink *link = &links->link[links->count];
-    *link = (OstLink){.node = node, .count = count};
+    *link = (OstLink){.node = node, .count = count, .line = links->line};
     memcpy(link->leader, leader, (size_t)count * sizeof *leader);
     memcpy(link->place, place, sizeof link->place);
     memcpy(links->offset + 3 * (size_t)node, offset, 3 * sizeof *offset);
@@ -203,15 +204,23 @@ typedef struct Leading {
     int follows;
 } Leading;
 
-static OstStatus check_follower(const OstLinks *links, const Leading *leading, OstLocal node)
+static OstStatus raise_of(const OstLinks *links, const OstLink *link, const char *text)
 {
-    if (leading[node].held.constrained == 0)
+    const double *x = links->mesh->coordinates + 3 * (size_t)link->node;
+    char where[OST_ERROR_TEXT_SIZE / 2] = "";
+    if (links->path)
+        snprintf(where, sizeof where, "%s:%d: ", links->path, link->line);
+    return OST_RAISE(links->ctx, OST_INVALID_INPUT, "%svertex %lld at (%g, %g, %g) %s", where,
+                     (long long)links->mesh->node_label[link->node], x[0], x[1], x[2], text);
+}
+
+static OstStatus check_follower(const OstLinks *links, const Leading *leading, const OstLink *link)
+{
+    if (leading[link->node].held.constrained == 0)
         return OST_SUCCESS;
-    return OST_RAISE(
-        links->ctx, OST_INVALID_INPUT,
-        "vertex %lld is constrained, and follows others besides (a tied, periodic or rigid face); leave it "
-        "out of one of them, or constrain those that it follows",
-        (long long)links->mesh->node_label[node]);
+    return raise_of(links, link,
+                    "follows others here (a tied, periodic or rigid face), and is constrained besides; leave it out of "
+                    "one of them, or constrain those that it follows");
 }
 
 /* The leaders' own supports: u = W (P v + g). */
@@ -220,10 +229,9 @@ static OstStatus take_leader(const OstLinks *links, const Leading *leading, OstL
     const Leading *of = &leading[link->slot[k]];
     double weight[9], moved[3];
     if (of->follows)
-        return OST_RAISE(links->ctx, OST_INVALID_INPUT,
-                         "vertex %lld follows one that itself follows another (tied, periodic or rigid faces meet); "
-                         "exchange the two faces of a pair, or leave the edge out of one selection",
-                         (long long)links->mesh->node_label[link->node]);
+        return raise_of(links, link,
+                        "follows one that itself follows another (tied, periodic or rigid faces meet); exchange the "
+                        "two faces of a pair, or leave the edge out of one selection");
     memcpy(weight, link->leader[k].weight, sizeof weight);
     ost_multiply3(weight, of->held.projector, link->leader[k].weight);
     ost_apply3(weight, of->held.prescribed, moved);
@@ -244,7 +252,7 @@ static OstStatus take_supports(OstLinks *links, const OstHeld *held)
     }
     OstStatus status = ost_agree(links->ctx, ost_halo_import(links->halo, sizeof *leading, leading));
     for (OstLocal i = 0; i < links->count && status == OST_SUCCESS; i++) {
-        status = check_follower(links, leading, links->link[i].node);
+        status = check_follower(links, leading, &links->link[i]);
         for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
             status = take_leader(links, leading, &links->link[i], k);
     }

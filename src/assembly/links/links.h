@@ -23,6 +23,7 @@ typedef struct OstLink {
     OstLeader leader[OST_MOST_LEADERS];
     OstLocal slot[OST_MOST_LEADERS]; /* where the leader is in the halo's arrays */
     double place[3];                 /* where the leaders' mean is; the node itself, of a rigid face */
+    int line;                        /* of the case, which states it */
 } OstLink;
 
 /* A rigid face: its point, and its motion there, prescribed or free. */
@@ -38,6 +39,8 @@ typedef struct OstLinks {
     const OstMesh *mesh;
     OstLocal count, all, capacity; /* links of owned nodes; then of ghosts, once complete */
     OstLink *link;
+    const char *path;     /* of the case, or NULL */
+    int line;             /* where it states the links that are added */
     OstLocal *of_node;    /* node_count: the link of a node, or -1 */
     unsigned char *leads; /* node_count: does another follow this one? */
     unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */

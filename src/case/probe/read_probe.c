@@ -12,6 +12,8 @@ static OstStatus read_points(const OstYaml *yaml, const OstYamlNode *node, OstPr
 {
     int count;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of points", &count));
+    if (count == 0)
+        return ost_yaml_raise(yaml, node, "found an empty list, expected points, as in [[1, 0, 0]]");
     OST_TRY(OST_NEW(yaml->ctx, &probe->points, 3 * count));
     probe->count = count;
     const OstYamlNode *item = ost_yaml_first(yaml, node);

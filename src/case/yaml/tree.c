@@ -168,8 +168,23 @@ static void close_level(Walk *walk)
         node->value /= 2;
 }
 
+/* A tag would be read past: `!GPa 11` as 11. */
+static OstStatus check_tag(const Walk *walk, const yaml_event_t *event)
+{
+    char text[120];
+    const yaml_char_t *tag = event->type == YAML_SCALAR_EVENT           ? event->data.scalar.tag
+                             : event->type == YAML_SEQUENCE_START_EVENT ? event->data.sequence_start.tag
+                             : event->type == YAML_MAPPING_START_EVENT  ? event->data.mapping_start.tag
+                                                                        : NULL;
+    if (!tag)
+        return OST_SUCCESS;
+    snprintf(text, sizeof text, "found the tag '%.60s'; tags have no meaning here, leave it out", (const char *)tag);
+    return raise_at(walk, event->start_mark, text);
+}
+
 static OstStatus take_event(Walk *walk, const yaml_event_t *event)
 {
+    OST_TRY(check_tag(walk, event));
     switch (event->type) {
     case YAML_DOCUMENT_START_EVENT:
         return walk->nodes == 0 ? OST_SUCCESS

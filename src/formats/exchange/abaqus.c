@@ -72,17 +72,22 @@ const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter)
     return NULL;
 }
 
-/* Copies without blanks and quotes at the ends. */
-static void copy_word(const char *start, const char *end, char word[OST_INP_WORD])
+/* Copies without blanks at the ends, which within quotes are kept. Returns whether all of it has room. */
+static int copy_word(const char *start, const char *end, char word[OST_INP_WORD])
 {
     size_t length = 0;
-    while (start < end && strchr(" \t\"", *start))
+    while (start < end && strchr(" \t", *start))
         start++;
-    while (end > start && strchr(" \t\"", end[-1]))
+    while (end > start && strchr(" \t", end[-1]))
         end--;
-    for (; start < end && length + 1 < OST_INP_WORD; start++)
+    if (end > start && *start == '"')
+        start++;
+    if (end > start && end[-1] == '"')
+        end--;
+    for (; start < end && length + 2 < OST_INP_WORD; start++)
         word[length++] = *start;
     word[length] = '\0';
+    return start == end;
 }
 
 /* Copies in capitals, without blanks. */
@@ -103,18 +108,21 @@ static const char *word_end(const char *text)
     return text;
 }
 
-static void add_parameters(const char *text, OstInpKeyword *keyword)
+static OstStatus add_parameters(const OstInp *inp, const char *text, OstInpKeyword *keyword)
 {
     while (*text && keyword->count < OST_INP_PARAMETERS) {
         const char *end = word_end(text);
         const char *equals = memchr(text, '=', (size_t)(end - text));
         const int p = keyword->count;
         copy_name(text, equals ? equals : end, keyword->parameter[p]);
-        copy_word(equals ? equals + 1 : end, end, keyword->value[p]);
+        if (!copy_word(equals ? equals + 1 : end, end, keyword->value[p]))
+            return OST_RAISE_LINE(inp->lines, "%s of *%s is longer than %d letters; shorten it", keyword->parameter[p],
+                                  keyword->name, OST_INP_WORD - 2);
         keyword->quoted[p] = equals && memchr(equals, '"', (size_t)(end - equals)) != NULL;
         keyword->count += keyword->parameter[p][0] != '\0';
         text = *end ? end + 1 : end;
     }
+    return OST_SUCCESS;
 }
 
 static int goes_on(const OstLineReader *lines)
@@ -129,13 +137,13 @@ OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword)
     const char *end = text + strcspn(text, ",");
     memset(keyword, 0, sizeof *keyword);
     copy_name(text, end, keyword->name);
-    add_parameters(*end ? end + 1 : end, keyword);
+    OST_TRY(add_parameters(inp, *end ? end + 1 : end, keyword));
     while (goes_on(inp->lines)) {
         int found = 0;
         OST_TRY(ost_lines_next(inp->lines, &found));
         if (!found)
             return OST_RAISE_LINE(inp->lines, "the file ends within the keyword *%s", keyword->name);
-        add_parameters(inp->lines->text, keyword);
+        OST_TRY(add_parameters(inp, inp->lines->text, keyword));
     }
     return OST_SUCCESS;
 }
@@ -153,7 +161,7 @@ static int same_names(const char *a, const char *b)
         exact++;
         other++;
     }
-    return *exact == *other;
+    return !*exact && !*other;
 }
 
 const char *ost_inp_set_name(const OstInpKeyword *keyword, const char *parameter, char name[OST_INP_WORD])

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <string.h>
+#include <strings.h>
 
 /* Abaqus's input: an element set for each region, triangles in a set for each boundary of faces, sets of nodes for
  * those of curves and points. */
@@ -17,18 +18,29 @@ static void write_item(FILE *file, const OstMeshChunk *whole, OstGlobal label, i
     fputc('\n', file);
 }
 
-/* Other names than words go in quotes. */
-static void write_set(FILE *file, const char *parameter, const char *name)
+/* Without quotes, names that differ in capitals alone are one. */
+static int has_twin(const OstMeshChunk *whole, const char *name)
+{
+    int twins = 0;
+    for (int r = 0; r < whole->regions.count; r++)
+        twins += !strcasecmp(whole->regions.name[r], name) && strcmp(whole->regions.name[r], name) != 0;
+    for (int b = 0; b < whole->boundary_count; b++)
+        twins += !strcasecmp(whole->boundaries[b].name, name) && strcmp(whole->boundaries[b].name, name) != 0;
+    return twins > 0;
+}
+
+/* Other names than words go in quotes, which keep them to the letter. */
+static void write_set(FILE *file, const OstMeshChunk *whole, const char *parameter, const char *name)
 {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-    const char *quote = name[strspn(name, plain)] ? "\"" : "";
+    const char *quote = name[strspn(name, plain)] || has_twin(whole, name) ? "\"" : "";
     fprintf(file, "%s=%s%s%s\n", parameter, quote, name, quote);
 }
 
 static void write_region(FILE *file, const OstMeshChunk *whole, int region)
 {
     fprintf(file, "*ELEMENT, TYPE=C3D%d, ", whole->nodes_per_tet);
-    write_set(file, "ELSET", whole->regions.name[region]);
+    write_set(file, whole, "ELSET", whole->regions.name[region]);
     for (OstLocal t = 0; t < whole->tet_count; t++)
         if (whole->tet_region[t] == region)
             write_item(file, whole, whole->tet_label[t], whole->nodes_per_tet,
@@ -41,12 +53,12 @@ static OstGlobal write_boundary(FILE *file, const OstMeshChunk *whole, const Ost
     const size_t width = (size_t)boundary->nodes_per_item, total = width * (size_t)boundary->count;
     if (boundary->dimension == 2) {
         fprintf(file, "*ELEMENT, TYPE=%s, ", width == 3 ? "S3" : "STRI65");
-        write_set(file, "ELSET", boundary->name);
+        write_set(file, whole, "ELSET", boundary->name);
         for (OstLocal i = 0; i < boundary->count; i++)
             write_item(file, whole, ++last, (int)width, boundary->nodes + width * (size_t)i);
         return last;
     }
-    write_set(file, "*NSET, NSET", boundary->name);
+    write_set(file, whole, "*NSET, NSET", boundary->name);
     for (size_t i = 0; i < total; i++)
         fprintf(file, "%" PRId64 "%s", whole->node_label[boundary->nodes[i]],
                 i + 1 == total || i % NUMBERS_A_LINE == NUMBERS_A_LINE - 1 ? "\n" : ", ");

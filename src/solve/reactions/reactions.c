@@ -169,6 +169,23 @@ static OstStatus find_by_statics(const Search *whole, double t, const double *u,
     return OST_SUCCESS;
 }
 
+OstStatus ost_reactions_by_statics(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                                   OstWatchedReaction *found)
+{
+    Search search = {problem, watch, {0}, NULL, NULL};
+    double *imbalance = NULL;
+    if (watch->kind != OST_WATCH_REACTION || !is_work(problem))
+        return OST_SUCCESS;
+    OstStatus status =
+        ost_agree(problem->ctx, OST_NEW(problem->ctx, &search.rigid, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(find_imbalance(problem, t, u, &imbalance));
+    search.imbalance = imbalance;
+    OST_THEN(find_by_statics(&search, t, u, found));
+    OST_FREE(search.rigid);
+    OST_FREE(imbalance);
+    return status;
+}
+
 /* A reaction whose adjoint problem is wanted. */
 typedef struct Wanted {
     Search *search;

@@ -36,6 +36,10 @@ int ost_reactions_have_adjoint(const OstProblem *problem);
 /* Local. Has a watched quantity an adjoint problem of its own: a reaction, or a mean stress as above? */
 int ost_reactions_are_watched(const OstProblem *problem);
 
+/* Collective. A reaction that statics alone gives is known; no other one is, nor another quantity. */
+OstStatus ost_reactions_by_statics(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
+                                   OstWatchedReaction *found);
+
 /* Collective. The errors of mean stresses; `kept` as below, or NULL. */
 OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
                                  const double *u, OstReactions *kept, OstWatchedReaction *found);
