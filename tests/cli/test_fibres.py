@@ -113,7 +113,8 @@ check(len(said) == 1 and "tsai_wu_load_factor, hill_load_factor, maximum_stress_
 said = warned(STRONG % 1.73, "")
 check(len(said) == 1 and "strengths: hill_load_factor, maximum_stress_load_factor;" in said[0], f"{said}")
 check(not warned(STRONG % 1.73, "output: {fields: [tsai_wu_load_factor]}"), "Tsai and Wu's alone")
-refused(text(STRONG[:-1] % 2 + ", interaction: {f12: -0.5, f23: -0.5, f31: -0.4}}"), "e3 alone does not place a material that differs")
+refused(text(STRONG[:-1] % 2 +
+             ", interaction: {f12: -0.5, f23: -0.5, f31: -0.4}}"), "e3 alone does not place a material that differs")
 
 # --- boundaries that touch ---
 
