@@ -109,6 +109,10 @@ int ost_strength_has_directions(const OstStrength *strength);
  * positive (less than 0 in some direction)? */
 int ost_criterion_is_open(const OstStrength *strength, OstCriterion criterion);
 
+/* Local. Of strengths that are alike along the two axes across `axis` (0 to 2): the shear strength between these with
+ * which a criterion does not depend on where they lie. 0: there is none, as the largest stress always does. */
+double ost_criterion_even_shear(const OstStrength *strength, OstCriterion criterion, int axis);
+
 /* How near constants are to losing definiteness. Of any constants with positive Young's moduli; Local. */
 
 /* Eigenvalues, ascending, of the normalised normal block. */

@@ -200,19 +200,32 @@ static double work_of(const Cells *cells, OstLocal owned_tets, const OstSimd *mo
     return sum;
 }
 
-/* Adds the forces of linear theory by the elements' own quadrature. */
-static void add_own(const OstOperator *operator, const Cells * cells, const OstElement *element, const double *u,
-                    double *force)
+/* The forces of linear theory by the elements' own quadrature. */
+typedef enum { OWN_ALIKE, OWN_ABOUT_LINE, OWN_GATHERED } OwnForces;
+
+/* How they are found: not at all where both integrate without error. */
+static OwnForces own_forces_of(const Cells *cells)
 {
-    const OstMesh *mesh = operator->problem->mesh;
-    OstSimd moved[NUMBERS], at_nodes[NUMBERS];
-    OstBatch batch;
-    ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.eigen_share = cells->batch.elasticity.eigen_share;
-    ost_batch_gather(&batch, element, mesh, operator->problem->field, cells->batch.count, cells->batch.tet);
-    ost_batch_gather_vectors(&batch, cells->nodes, u, moved);
-    element->force(batch.x, &batch.elasticity, moved, at_nodes);
-    add_to_nodes(&batch, cells->nodes, mesh->owned_nodes, at_nodes, force);
+    if (cells->straight && cells->batch.elasticity.points == 1)
+        return OWN_ALIKE;
+    return cells->nodes == 4 && cells->batch.elasticity.stretch_at ? OWN_ABOUT_LINE : OWN_GATHERED;
+}
+
+/* The tets with C at the elements' own points. */
+static void gather_own(const OstOperator *operator, const Cells * cells, const OstElement *element, OstBatch *own)
+{
+    ost_elasticity_clear(&own->elasticity);
+    own->elasticity.eigen_share = cells->batch.elasticity.eigen_share;
+    ost_batch_gather(own, element, operator->problem->mesh, operator->problem->field, cells->batch.count,
+                     cells->batch.tet);
+}
+
+static void add_own(const OstOperator *operator, const Cells * cells, const OstElement *element, const OstBatch *own,
+                    const OstSimd *moved, double *force)
+{
+    OstSimd at_nodes[NUMBERS];
+    element->force(own->x, &own->elasticity, moved, at_nodes);
+    add_to_nodes(own, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
 }
 
 /* The same where A differs about a line: without C. */
@@ -235,7 +248,7 @@ typedef struct Sum {
 } Sum;
 
 /* Of a batch, which is gathered. */
-static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
+static void add_state(const Cells *cells, const OstElement *element, OwnForces by, const OstBatch *own, Sum *sum)
 {
     const OstMesh *mesh = sum->operator->problem->mesh;
     OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
@@ -243,15 +256,15 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
-    if (sum->missing && cells->straight && cells->batch.elasticity.points == 1)
-        return; /* both integrate without error */
+    if (sum->missing && by == OWN_ALIKE)
+        return;
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
         at_nodes[n] = -at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing && cells->nodes == 4 && cells->batch.elasticity.stretch_at)
+    if (sum->missing && by == OWN_ABOUT_LINE)
         add_own_about_line(sum->operator, cells, moved, sum->force);
     else if (sum->missing)
-        add_own(sum->operator, cells, element, sum->u, sum->force);
+        add_own(sum->operator, cells, element, own, moved, sum->force);
 }
 
 /* Keeps the points of curved tets, which all displacements of a visit share. */
@@ -269,6 +282,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     const OstMesh *mesh = one->operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstEvaluated at[OST_MAX_POINTS];
+    OstBatch own;
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
@@ -277,8 +291,11 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
         keep_points(element, at, &cells);
+        const OwnForces by = own_forces_of(&cells);
+        if (one->missing && by == OWN_GATHERED)
+            gather_own(one->operator, & cells, element, &own);
         for (int k = 0; k < count; k++)
-            add_state(&cells, element, sum[k]);
+            add_state(&cells, element, by, &own, sum[k]);
     }
     return OST_SUCCESS;
 }

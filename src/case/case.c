@@ -377,8 +377,10 @@ static OstStatus parse(OstContext *ctx, const char *path, const OstCaseText *tex
     }
     OST_THEN(read_sections(yaml, OST_EVERY_LOAD_CASE, *c));
     OST_THEN(read_each_load_case(yaml, *c));
-    if (status == OST_SUCCESS)
+    if (status == OST_SUCCESS) {
         keep_axes_asked_for(*c);
+        ost_warn_arbitrary_axes(*c);
+    }
     ost_yaml_destroy(&yaml);
     return status;
 }

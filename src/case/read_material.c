@@ -333,7 +333,7 @@ static int is_same_across(const OstCaseMaterial *material, int axis)
     const int strain = e[a] == e[b] && e[3] == 0.0 && e[4] == 0.0 && e[5] == 0.0 &&
                        (!material->eigen_field || material->eigen_per_unit);
     return strain && s->tension[a] == s->tension[b] && s->compression[a] == s->compression[b] &&
-           s->shear[axis] == s->shear[b];
+           s->shear[axis] == s->shear[b] && s->interaction[axis] == s->interaction[b];
 }
 
 /* One direction is enough where the material is transversely isotropic about it. */

@@ -30,6 +30,9 @@ OstStatus ost_read_sweep(const OstYaml *yaml, const OstYamlNode *node, OstCase *
 enum { OST_EVERY_LOAD_CASE = -1 };
 OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c);
 
+/* Local. Warns of what is asked for along axes of which one is stated and the others lie anywhere, load cases too. */
+void ost_warn_arbitrary_axes(const OstCase *c);
+
 /* Parts of sections. */
 OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char *region, OstCase *c,
                         OstAxesSpec *axes);

@@ -42,7 +42,7 @@ static void print_help(FILE *stream)
         fprintf(stream, "  %-10s %s\n", commands[i].name, commands[i].summary);
     fputs("\nEvery command takes --help, -q (print nothing but errors, and the JSON or CSV that is asked for) and -v\n"
           "(say more); -q and -v may come first.\n"
-          "Exit status: 0 done, 1 not converged or a check failed, 2 wrong usage or input.\n",
+          "Exit status: 0 done, 1 not converged or a check failed, 2 wrong usage or input, 130 interrupted.\n",
           stream);
 }
 

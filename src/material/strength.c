@@ -126,3 +126,20 @@ int ost_criterion_is_open(const OstStrength *strength, OstCriterion criterion)
     return criterion == OST_TSAI_WU ? tsai_wu_is_open(strength->interaction)
                                     : criterion == OST_HILL && hill_is_open(strength);
 }
+
+/* Turned about the axis, a sum of squares F_aa (s_a^2 + s_b^2) + 2 F_ab s_a s_b + (s_ab / S)^2 stays as it is for
+ * 1 / S^2 = 2 (F_aa - F_ab). */
+double ost_criterion_even_shear(const OstStrength *strength, OstCriterion criterion, int axis)
+{
+    const int a = next(axis);
+    double coefficient[3], difference;
+    if (criterion == OST_MAXIMUM_STRESS)
+        return 0.0;
+    if (criterion == OST_TSAI_WU)
+        difference = tsai_wu_square(strength, a) * (1.0 - strength->interaction[a]);
+    else {
+        hill_coefficients(strength, coefficient);
+        difference = coefficient[next(a)] + 2.0 * coefficient[axis];
+    }
+    return difference > 0.0 ? sqrt(0.5 / difference) : 0.0;
+}

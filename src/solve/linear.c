@@ -7,6 +7,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "problem/free_body.h"
 #include "solve/distributing/distributing.h"
 #include "solve/error.h"
@@ -201,6 +202,7 @@ static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int
     OstProblem state = *analysis->problem; /* with the pressure reached, if there is one */
     state.field = result->field;
     OST_FREE(result->internal);
+    ost_together_gather(analysis->ctx); /* from here on all load cases have the same to do */
     if (linear->enclosed) { /* what the solver has estimated: nothing tells the mean pressure, so none of its error */
         const double error = result->solve.error_estimate;
         *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};

@@ -76,6 +76,46 @@ check("lies along z" in said["warnings"][0], f"{said['warnings']}")
 said = json.loads(call(text(MUSCLE + ", fibre: [1, 0, 0]"), "explain").output)["materials"][0]
 check("5000 along e3 (the axis)" in said["moduli"] and "e3 = (1, 0, 0)" in said["axes"], f"{said}")
 
+# --- what is asked for along axes that lie anywhere ---
+
+ASKED = """watch: {own: {stress: {region: all}, component: 33}, across: {stress: {region: all}, component: 11},
+  shear: {stress: {at: [1, 0.5, 0.5]}, component: 31}, mises: {stress: {region: all}, component: von_mises}}
+output: {fields: [displacement, e1, e3]}
+"""
+
+
+def warned(material, asked=ASKED, commands=("check",), mesh=BLOCK):
+    case = f"mesh: {{{mesh}}}\nmaterials:\n  - {{region: all, {material}}}\n{HELD}large_rotation: off\n{asked}"
+    said = [json.loads(call(case, command).output)["warnings"] for command in commands]
+    check(all(one == said[0] for one in said), f"{commands}: {said}")
+    return said[0]
+
+
+arbitrary = warned(MUSCLE + ", fibre: [1, 0, 0]", commands=("check", "explain", "solve"))
+check(len(arbitrary) == 1 and "e3 alone, and e1 and e2 lie anywhere" in arbitrary[0] and
+      "arbitrary numbers: across (11), shear (31), the field e1; state" in arbitrary[0] and
+      "axes: {fixed: {e1: ..., e3: ...}}, or ask for 33," in arbitrary[0], f"{arbitrary}")
+said = warned(ABOUT_E1 + ", axes: {fixed: {e1: [1, 0, 0]}}")
+check("e1 alone, and e2 and e3" in said[0] and "numbers: own (33), shear (31), the field e3;" in said[0], f"{said}")
+said = warned(MUSCLE + ", fibre: {curve: {points: [[-1, 0, 0], [9, 0, 0]]}}", "output: {probes: {p: {points: [[1, 0.5, 0.5]]}}}")
+check(len(said) == 1 and "numbers: the probes' stresses" in said[0] and "up: ..., order:" in said[0], f"{said}")
+said = warned(MUSCLE + ", fibre: [1, 0, 0]", "cases: [{name: a, watch: {mine: {stress: {region: all}, component: 22}}}, {name: b}]")
+check(len(said) == 1 and "numbers: mine (22);" in said[0], f"{said}")
+for settled in ("axes: {fixed: {e1: [0, 1, 0], e3: [1, 0, 0]}}",
+                "fibre: {cylindrical: {origin: [0, 9, 9], axis: [1, 0, 0], along: axial}}"):
+    check(not warned(f"{MUSCLE}, {settled}"), f"{settled}: {warned(f'{MUSCLE}, {settled}')}")
+check(not warned(MUSCLE + ", fibre: [1, 0, 0]", ""), "nothing is asked for along the axes")
+
+STRONG = MUSCLE + ", fibre: [1, 0, 0], strengths: {tension: {plane: 3, axis: 80}, shear: {plane: %s, axis: 8}}"
+said = warned(STRONG % 2, "")
+check(len(said) == 1 and "tsai_wu_load_factor, hill_load_factor, maximum_stress_load_factor;" in said[0] and
+      "S12 = 1.7321" in said[0], f"{said}")
+said = warned(STRONG % 1.73, "")
+check(len(said) == 1 and "strengths: hill_load_factor, maximum_stress_load_factor;" in said[0], f"{said}")
+check(not warned(STRONG % 1.73, "output: {fields: [tsai_wu_load_factor]}"), "Tsai and Wu's alone")
+refused(text(STRONG[:-1] % 2 +
+             ", interaction: {f12: -0.5, f23: -0.5, f31: -0.4}}"), "e3 alone does not place a material that differs")
+
 # --- boundaries that touch ---
 
 # Between two planes through z the potential is the angle about z, and so the fibre is tangential.

@@ -103,6 +103,9 @@ for command in "${commands[@]}"; do
 done
 grep -q -e '--max-memory=' page-solve && grep -q 'Exit\|EXIT' page-solve || fail "solve: its page lacks options"
 zcat usr/share/man/man1/orthostat.1.gz | grep -q 'orthostat\\-cost\|orthostat-cost' || fail "orthostat(1) does not name the others"
+for page in orthostat orthostat-solve; do
+    zcat "usr/share/man/man1/$page.1.gz" | grep -q '130 interrupted' || fail "$page(1) does not tell of status 130"
+done
 
 # shellcheck disable=SC1091
 . usr/share/bash-completion/completions/orthostat

@@ -4,6 +4,7 @@ import pty
 import signal
 import subprocess
 import time
+import types
 
 from program import MPIEXEC, PROGRAM, check, new_folder
 
@@ -65,6 +66,31 @@ for ranks in 2, 4:
     interrupt([MPIEXEC, "-n", str(ranks), PROGRAM, "solve", "bar.yaml"], signal.SIGINT, False)
 code = interrupt([MPIEXEC, "-n", "2", PROGRAM, "solve", "bar.yaml"], signal.SIGTERM, True)
 check(code == 130, f"a rank ended with 130, mpirun with {code}")
+
+def interrupt_on_terminal(command, ranks):
+    """Ctrl-C typed on a terminal."""
+    pid, ours = pty.fork()
+    if pid == 0:
+        os.chdir(folder)
+        os.execvp(command[0], command)
+    wait_for(types.SimpleNamespace(pid=pid), ranks)
+    time.sleep(0.5)
+    os.write(ours, b"\x03")
+    seen = b""
+    try:
+        while more := os.read(ours, 4096):
+            seen += more
+    except OSError:
+        pass
+    check(b"orthostat: interrupted, nothing written" in seen, seen.decode())
+    check(os.listdir(folder) == ["bar.yaml"], os.listdir(folder))
+    return os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+
+
+code = interrupt_on_terminal([PROGRAM, "solve", "bar.yaml"], 1)
+check(code == 130, f"Ctrl-C: exit {code}")
+code = interrupt_on_terminal([MPIEXEC, "-n", "2", PROGRAM, "solve", "bar.yaml"], 2)
+check(code != 0, f"Ctrl-C under mpirun: exit {code}")  # 1 of Open MPI 4, whatever the ranks end with
 
 # --- a file that is half written goes, one that is complete stays ---
 with open(os.path.join(folder, "many.yaml"), "w") as stream:

@@ -93,6 +93,31 @@ static void what_a_full_service_leaves_waits_for_more(void **state)
     }
 }
 
+/* Task k asks k + 1 times, gathers, and asks for something else, which begins alike for all; the last is over before.
+ */
+static void ask_and_gather(void *data, int number)
+{
+    Data *all = data;
+    double value = 1.0;
+    ask(data, number);
+    if (number == TASKS - 1)
+        return;
+    ost_together_gather(ctx);
+    all->status[number] = ost_together(ctx, square, TASKS, all->sums + 1, &value);
+}
+
+static void those_that_gather_go_on_together(void **state)
+{
+    (void)state;
+    Sums sums[2] = {{.at_once = TASKS}, {.at_once = TASKS}};
+    Data data = {.sums = sums};
+    assert_success(ost_together_run(ctx, TASKS, ask_and_gather, &data));
+    assert_int_equal(sums[0].services, TASKS);
+    assert_int_equal(sums[1].services, 1);
+    assert_int_equal(sums[1].most, TASKS - 1);
+    ost_together_gather(ctx); /* outside there is nobody to wait for */
+}
+
 static void a_failure_reaches_all_that_were_served(void **state)
 {
     (void)state;
@@ -116,6 +141,7 @@ static void outside_of_tasks_a_request_is_served_alone(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(requests_of_one_kind_are_served_at_once),
     cmocka_unit_test(what_a_full_service_leaves_waits_for_more),
+    cmocka_unit_test(those_that_gather_go_on_together),
     cmocka_unit_test(a_failure_reaches_all_that_were_served),
     cmocka_unit_test(outside_of_tasks_a_request_is_served_alone),
 };

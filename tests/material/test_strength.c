@@ -93,12 +93,44 @@ static void open_criteria_are_known(void **state)
     assert_false(ost_criterion_is_open(&strength, OST_MAXIMUM_STRESS));
 }
 
+/* A stress of 11 22 33 12 23 31, seen from axes turned about e1. */
+static void turn(const double stress[6], double angle, double turned[6])
+{
+    const double c = cos(angle), s = sin(angle);
+    turned[0] = stress[0];
+    turned[1] = c * c * stress[1] + s * s * stress[2] + 2.0 * c * s * stress[4];
+    turned[2] = s * s * stress[1] + c * c * stress[2] - 2.0 * c * s * stress[4];
+    turned[3] = c * stress[3] + s * stress[5];
+    turned[4] = c * s * (stress[2] - stress[1]) + (c * c - s * s) * stress[4];
+    turned[5] = c * stress[5] - s * stress[3];
+}
+
+/* With that shear strength axes across the fibre may lie anywhere; with another one they may not. */
+static void shear_across_makes_criteria_even(void **state)
+{
+    (void)state;
+    const double stress[6] = {7.0, 1.0, -0.4, 0.7, 0.3, -1.1};
+    double turned[6];
+    turn(stress, 0.6, turned);
+    for (int c = 0; c < OST_MAXIMUM_STRESS; c++) {
+        OstStrength even = pine;
+        even.interaction[1] = -0.3;
+        const double factor = ost_load_factor(&even, (OstCriterion)c, stress);
+        assert_true(fabs(ost_load_factor(&even, (OstCriterion)c, turned) / factor - 1.0) > 1e-3);
+        even.shear[1] = ost_criterion_even_shear(&even, (OstCriterion)c, 0);
+        assert_close(ost_load_factor(&even, (OstCriterion)c, turned), ost_load_factor(&even, (OstCriterion)c, stress),
+                     1e-12);
+    }
+    assert_true(ost_criterion_even_shear(&pine, OST_MAXIMUM_STRESS, 0) == 0.0);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(single_stresses_fail_at_their_strength),
     cmocka_unit_test(tsai_wu_is_the_root_of_its_form),
     cmocka_unit_test(an_isotropic_material_fails_by_von_mises),
     cmocka_unit_test(what_cannot_fail_has_the_largest_factor),
     cmocka_unit_test(open_criteria_are_known),
+    cmocka_unit_test(shear_across_makes_criteria_even),
 };
 
 OST_TEST_MAIN(tests)

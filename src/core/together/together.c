@@ -22,10 +22,10 @@ typedef struct Place {
 
 typedef struct Task {
     ucontext_t context;
-    char *stack; /* from a guard page on, so that an overflow ends the program */
-    int is_over;
-    OstServe *serve; /* what it waits for; NULL: nothing */
-    int most;        /* of such requests that are served at once */
+    char *stack;          /* from a guard page on, so that an overflow ends the program */
+    int is_over, gathers; /* does it wait for all others? */
+    OstServe *serve;      /* what it waits for; NULL: nothing */
+    int most;             /* of such requests that are served at once */
     void *common, *request;
     long turn;        /* requests are numbered as they come */
     OstStatus status; /* of what it waited for */
@@ -175,17 +175,30 @@ static void serve(struct OstTogether *together, const Task *chosen)
     }
 }
 
+/* All that are not over have gathered: they go on. Returns how many. */
+static int let_go(struct OstTogether *together)
+{
+    int count = 0;
+    for (int k = 0; k < together->count; k++) {
+        count += together->task[k].gathers;
+        together->task[k].gathers = 0;
+    }
+    return count;
+}
+
 static void run_all(struct OstTogether *together)
 {
     const Task *chosen = NULL;
     do {
-        for (int k = 0; k < together->count; k++)
-            if (!together->task[k].is_over && !together->task[k].serve)
-                run(together, &together->task[k]);
+        for (int k = 0; k < together->count; k++) {
+            Task *task = &together->task[k];
+            if (!task->is_over && !task->gathers && !task->serve)
+                run(together, task);
+        }
         chosen = choose(together);
         if (chosen)
             serve(together, chosen);
-    } while (chosen);
+    } while (chosen || let_go(together) > 0);
 }
 
 OstStatus ost_together_run(OstContext *ctx, int count, void (*task)(void *data, int number), void *data)
@@ -217,6 +230,15 @@ OstStatus ost_together(OstContext *ctx, OstServe *served_by, int most, void *com
     task->request = request;
     swapcontext(&task->context, &together->outside);
     return task->status;
+}
+
+void ost_together_gather(OstContext *ctx)
+{
+    struct OstTogether *together = ctx->together;
+    if (!together)
+        return;
+    together->running->gathers = 1;
+    swapcontext(&together->running->context, &together->outside);
 }
 
 int ost_together_any(const OstContext *ctx)

@@ -22,6 +22,10 @@ OstStatus ost_together_run(OstContext *ctx, int count, void (*task)(void *data, 
  * ranks alike, also where what is served is local. `most`: so many are served at once; more would be no cheaper. */
 OstStatus ost_together(OstContext *ctx, OstServe *serve, int most, void *common, void *request);
 
+/* Inside a task: returns when all others are over or have come to such a call too, so that what follows is done
+ * together. To be called by all ranks alike. */
+void ost_together_gather(OstContext *ctx);
+
 /* Local. Is a task running? */
 int ost_together_any(const OstContext *ctx);
 

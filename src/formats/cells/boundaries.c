@@ -178,9 +178,23 @@ void ost_cell_face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, Ost
         face[3 + i] = tet[ost_tet_mid_node(v[i], v[(i + 1) % 3])];
 }
 
+/* The tet of a face, and the vertex opposite to it; 0 if there is no such tet. */
+static int find_face(const OstCells *cells, const OstCellSet *set, OstGlobal item, OstCellKind tets, OstLocal *tet,
+                     int *opposite)
+{
+    static const int of_abaqus[4] = {3, 2, 0, 1}; /* in the order of its faces */
+    if (set->kind == OST_SET_OF_SIDES) {
+        *tet = (OstLocal)(item / 4);
+        *opposite = (int)(item % 4);
+        return 1;
+    }
+    const OstGlobal face = item % OST_CELL_FACES;
+    *opposite = of_abaqus[face % 4];
+    return face < 4 && ost_cells_find(cells, item / OST_CELL_FACES, tet) == tets;
+}
+
 static OstStatus add_faces(OstCells *cells, const OstCellSet *set, OstCellKind tets)
 {
-    static const int opposite[4] = {3, 2, 0, 1}; /* vertices, in the order of Abaqus's faces */
     const int width = ost_cell_facts[tets].nodes;
     OstBoundary *boundary = NULL;
     OST_TRY(boundary_of(cells, set->name, 2, width == 4 ? 3 : 6, &boundary));
@@ -188,27 +202,12 @@ static OstStatus add_faces(OstCells *cells, const OstCellSet *set, OstCellKind t
     for (OstLocal i = 0; i < set->count; i++) {
         OstGlobal face[6];
         OstLocal tet = 0;
-        const OstGlobal side = set->item[i] % OST_CELL_FACES;
-        if (ost_cells_find(cells, set->item[i] / OST_CELL_FACES, &tet) != tets || side > 3) {
+        int opposite = 0;
+        if (!find_face(cells, set, set->item[i], tets, &tet, &opposite)) {
             cells->missing++;
             continue;
         }
-        ost_cell_face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, opposite[side], face);
-        append(boundary, face);
-    }
-    return OST_SUCCESS;
-}
-
-static OstStatus add_sides(OstCells *cells, const OstCellSet *set, OstCellKind tets)
-{
-    const int width = ost_cell_facts[tets].nodes;
-    OstBoundary *boundary = NULL;
-    OST_TRY(boundary_of(cells, set->name, 2, width == 4 ? 3 : 6, &boundary));
-    OST_TRY(reserve(cells, boundary, set->count));
-    for (OstLocal i = 0; i < set->count; i++) {
-        OstGlobal face[6];
-        ost_cell_face_of(cells->list[tets].nodes + (size_t)(set->item[i] / 4) * (size_t)width, width,
-                         (int)(set->item[i] % 4), face);
+        ost_cell_face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, opposite, face);
         append(boundary, face);
     }
     return OST_SUCCESS;
@@ -219,10 +218,8 @@ static OstStatus add_set(OstCells *cells, const OstCellSet *set, OstCellKind tet
     const int quadratic = tets == OST_CELL_TET10;
     if (set->kind == OST_SET_OF_NODES)
         return dimension == 0 && set->count > 0 ? add_nodes(cells, set) : OST_SUCCESS;
-    if (set->kind == OST_SET_OF_FACES)
+    if (set->kind == OST_SET_OF_FACES || set->kind == OST_SET_OF_SIDES)
         return dimension == 2 && set->count > 0 ? add_faces(cells, set, tets) : OST_SUCCESS;
-    if (set->kind == OST_SET_OF_SIDES)
-        return dimension == 2 ? add_sides(cells, set, tets) : OST_SUCCESS;
     if (dimension == 0)
         return add_cells(cells, set, OST_CELL_POINT);
     if (dimension == 1)
