@@ -112,7 +112,7 @@ static void multigrid_over_linear_tets_that_lock_finds_the_error_as_well(void **
 {
     (void)state;
     static const char text[] =
-        "mesh: {block: {size: [2, 1, 1], divisions: [8, 4, 4]}}\n"
+        "mesh: {block: {size: [2, 1, 1], divisions: [6, 3, 3]}}\n"
         "solver: {method: metric}\n" FIBRES HELD SIDEWAYS "large_rotation: off\noutput: {fields: [error]}\n";
     Answer answer = solve(text, 2, 0);
     assert_in_range(answer.result->solve.iterations, 4, 12);
