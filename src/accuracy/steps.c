@@ -97,6 +97,21 @@ static OstStatus multiply(OstSteps *steps)
     return ost_steps_take_rows(steps, steps->q.rows);
 }
 
+/* The same on the rows of a p that has no functions, by the stiffness that was solved with, where that is A: a tenth of
+ * the work of a visit to the tets. */
+static OstStatus multiply_rows(OstSteps *steps)
+{
+    const OstOperator *stiffness = steps->stiffness;
+    const OstProblem *problem = stiffness->problem;
+    if (stiffness->turned_by || !problem->filled)
+        return multiply(steps);
+    memcpy(steps->u, steps->p.rows, steps->rows * sizeof *steps->u);
+    OST_TRY(ost_block_matrix_apply(problem->system->matrix, steps->u, steps->q.rows));
+    for (size_t i = 0; i < steps->rows; i++)
+        steps->q.rows[i] /= stiffness->unit;
+    return OST_SUCCESS;
+}
+
 /* z = B r on the rows. */
 static OstStatus take_cycle(OstSteps *steps, int half, int *found)
 {
@@ -199,7 +214,7 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
 {
     OstContext *ctx = steps->stiffness->problem->ctx;
     double sums[3] = {0.0};
-    OST_TRY(multiply(steps));
+    OST_TRY(multiply_rows(steps));
     for (size_t i = 0; i < steps->rows; i++)
         sums[0] += steps->p.rows[i] * steps->q.rows[i];
     OST_TRY(ost_sum(ctx, 1, sums));
