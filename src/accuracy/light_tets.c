@@ -103,7 +103,8 @@ static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *fi
         return KEEP_ONE;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.stretch_suffices = 1;
-    for (size_t half = 0; half < HALVES * tets->count; half++) {
+    const size_t halves = field->region_count == 1 ? 1 : HALVES * tets->count; /* a batch of one region tells of all */
+    for (size_t half = 0; half < halves; half++) {
         gather(tets, field, OST_SIMD_WIDTH * half, &batch);
         if (!batch.elasticity.by_stretch)
             return KEEP_EACH;

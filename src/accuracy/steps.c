@@ -112,10 +112,10 @@ static OstStatus multiply_rows(OstSteps *steps)
     return OST_SUCCESS;
 }
 
-/* z = B r on the rows. */
-static OstStatus take_cycle(OstSteps *steps, int half, int *found)
+/* z = B r on the rows, by half a cycle. */
+static OstStatus take_cycle(OstSteps *steps, int *found)
 {
-    OST_TRY(ost_solver_precondition(steps->solver, half, steps->r.rows, steps->z, found));
+    OST_TRY(ost_solver_precondition(steps->solver, 1, steps->r.rows, steps->z, found));
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;
@@ -130,7 +130,7 @@ static OstStatus precondition(OstSteps *steps)
     int found = 1;
     const int first = steps->stiffness->complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = steps->turns++;
     if (turn >= first && (turn - first) % 2 == 0)
-        OST_TRY(take_cycle(steps, 1, &found));
+        OST_TRY(take_cycle(steps, &found));
     else
         memset(steps->z, 0, steps->rows * sizeof *steps->z);
     steps->failed = !found;
@@ -192,11 +192,9 @@ OstStatus ost_steps_left(const OstSteps *steps, double *left)
  */
 static OstStatus turn_rows(OstSteps *steps, double gone)
 {
-    const int half =
-        steps->stiffness->complement->mesh->nodes_per_tet == 4; /* the error of a mean would be too small */
     double sums[2] = {0.0};
     int found = 0;
-    OST_TRY(take_cycle(steps, half, &found));
+    OST_TRY(take_cycle(steps, &found));
     for (size_t i = 0; i < steps->rows && found; i++) {
         sums[0] += steps->r.rows[i] * steps->z[i];
         sums[1] += steps->q.rows[i] * steps->z[i];
