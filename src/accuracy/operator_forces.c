@@ -175,13 +175,13 @@ static int is_plain(const Cells *cells, OstFormulation formulation)
            !(cells->state && (elasticity->mixed || elasticity->eigenstrained));
 }
 
-/* Forces of a batch by the quickest way; w may be NULL. */
+/* Forces of a batch by the quickest way; w and at_centroid (accuracy/linear_tets.h) may be NULL. */
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
-                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions, OstSimd *at_centroid)
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
     if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
-        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
+        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions, at_centroid);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
@@ -230,17 +230,14 @@ typedef struct Sum {
 static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
 {
     const OstMesh *mesh = sum->operator->problem->mesh;
-    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
+    const int is_about_line = sum->missing && cells->nodes == 4 && cells->batch.elasticity.stretch_at;
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], own[NUMBERS] = {{0}};
     ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
-    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
+    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions, is_about_line ? own : NULL);
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
     if (sum->missing && cells->straight && cells->batch.elasticity.points == 1)
         return; /* both integrate without error */
-    const int is_about_line = sum->missing && cells->nodes == 4 && cells->batch.elasticity.stretch_at;
-    OstSimd own[NUMBERS] = {{0}};
-    if (is_about_line) /* where A differs about a line: without C */
-        ost_linear_tets_own_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, moved, own);
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
         at_nodes[n] = own[n] - at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
@@ -365,7 +362,7 @@ static void add_product(const Cells *cells, const OstElement *element, double fa
     OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
     ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
     gather_functions(cells, product->w, more);
-    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
     for (int n = 0; n < 3 * cells->nodes; n++)
         at_nodes[n] *= factor;
     for (int n = 0; n < 3 * cells->functions; n++)
@@ -428,7 +425,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
         gather(operator, first, mesh->owned_tets, &cells);
         ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
         gather_functions(&cells, w, more);
-        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
         for (int n = 0; n < 3 * cells.nodes; n++)
             sum += (moved[n] - moved[n % 3]) * at_nodes[n];
         for (int n = 0; n < 3 * cells.functions; n++)

@@ -63,9 +63,8 @@ void ost_steps_take_residual(OstSteps *steps, const double *forces, double divis
 void ost_steps_start(OstSteps *steps)
 {
     memset(steps->p.rows, 0, 2 * steps->rows * sizeof *steps->p.rows); /* and q */
-    memset(steps->p.functions, 0, 2 * OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
-    ost_blocks_step(steps->functions, steps->factor, 0.0, steps->p.functions, steps->q.functions, steps->e.functions,
-                    steps->r.functions, steps->products);
+    steps->products[0] = ost_blocks_square(steps->functions, steps->factor, steps->r.functions);
+    steps->products[1] = 0.0;
     steps->weight = steps->gain = 0.0;
     steps->turns = 0;
 }
@@ -103,8 +102,10 @@ static OstStatus multiply_rows(OstSteps *steps)
 {
     const OstOperator *stiffness = steps->stiffness;
     const OstProblem *problem = stiffness->problem;
-    if (stiffness->turned_by || !problem->filled)
+    if (stiffness->turned_by || !problem->filled) {
+        memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
         return multiply(steps);
+    }
     memcpy(steps->u, steps->p.rows, steps->rows * sizeof *steps->u);
     OST_TRY(ost_block_matrix_apply(problem->system->matrix, steps->u, steps->q.rows));
     for (size_t i = 0; i < steps->rows; i++)
@@ -232,7 +233,6 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
 OstStatus ost_steps_settle(OstSteps *steps)
 {
     double length = 0.0, share = 1.0;
-    memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
     for (int step = 0; step < MOST_TO_SETTLE && share > settled; step++) {
         OST_TRY(turn_rows(steps, length));
         if (!(steps->weight > 0.0))

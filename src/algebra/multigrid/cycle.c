@@ -241,7 +241,7 @@ static OstStatus apply_half(void *data, int count, void *const *request)
         return apply_all(cycle, 1, count, request);
     const int degree = smoother->degree;
     smoother->degree = degree < HALF_DEGREE ? degree : HALF_DEGREE;
-    const OstStatus status = apply_all(cycle, 1, count, request);
+    const OstStatus status = apply_all(cycle, 0, count, request);
     smoother->degree = degree;
     return status;
 }
