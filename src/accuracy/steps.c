@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take one
- * such step; thin and slender ones, whose bending multigrid finds slowly, up to seven. */
+ * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
 static const double settled = 0.15;
 enum { MOST_TO_SETTLE = 20 };
 
@@ -96,8 +96,8 @@ static OstStatus multiply(OstSteps *steps)
     return ost_steps_take_rows(steps, steps->q.rows);
 }
 
-/* The same on the rows of a p that has no functions, by the stiffness that was solved with, where that is A: a tenth of
- * the work of a visit to the tets. */
+/* The same on the rows of a p that has no functions, by the stiffness that was solved with, where that is A (in curved
+ * tets better than A): a third of the work of a visit to the tets, or less. */
 static OstStatus multiply_rows(OstSteps *steps)
 {
     const OstOperator *stiffness = steps->stiffness;
