@@ -151,6 +151,22 @@ OST_KERNEL void ost_blocks_step(size_t count, const float *factor, double length
     }
 }
 
+OST_KERNEL double ost_blocks_square(size_t count, const float *factor, const float *r)
+{
+    double square = 0.0;
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t end = first + RUN < count ? first + RUN : count;
+        Four sum = {0.0F}, y;
+        for (size_t k = first; k < end; k++) {
+            const Four *n = (const Four *)(factor + OST_PER_BLOCK * k);
+            multiply(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k), &y);
+            sum += y * y;
+        }
+        square += total(&sum);
+    }
+    return square;
+}
+
 OST_KERNEL void ost_blocks_turn(size_t count, const float *factor, const float *r, double share, float *p)
 {
     const Four by = {(float)share, (float)share, (float)share, (float)share};
@@ -159,7 +175,9 @@ OST_KERNEL void ost_blocks_turn(size_t count, const float *factor, const float *
         Four y, z, *to = (Four *)(p + OST_PER_FUNCTION * k);
         multiply(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k), &y);
         multiply_transposed(&n[0], &n[1], &y, &z);
-        *to = z + by * *to;
+        if (share != 0.0)
+            z += by * *to;
+        *to = z;
     }
 }
 

@@ -20,7 +20,10 @@ void ost_blocks_factor(const OstComplement *complement, float *block);
 void ost_blocks_step(size_t count, const float *factor, double length, const float *p, const float *q, float *e,
                      float *r, double sums[2]);
 
-/* Local. p = N'N r + share p */
+/* Local. r'N'N r */
+double ost_blocks_square(size_t count, const float *factor, const float *r);
+
+/* Local. p = N'N r + share p; a p of no share may be anything. */
 void ost_blocks_turn(size_t count, const float *factor, const float *r, double share, float *p);
 
 /* Local. a'b of vectors of the functions. */

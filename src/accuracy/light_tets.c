@@ -103,7 +103,8 @@ static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *fi
         return KEEP_ONE;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.stretch_suffices = 1;
-    for (size_t half = 0; half < HALVES * tets->count; half++) {
+    const size_t halves = field->region_count == 1 ? 1 : HALVES * tets->count; /* a batch of one region tells of all */
+    for (size_t half = 0; half < halves; half++) {
         gather(tets, field, OST_SIMD_WIDTH * half, &batch);
         if (!batch.elasticity.by_stretch)
             return KEEP_EACH;
@@ -111,10 +112,10 @@ static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *fi
     return KEEP_STRETCH;
 }
 
-static void put(const OstSimd *number, double unit, int half, Kept *kept)
+static inline void put(const OstSimd *number, double unit, int half, Kept *kept)
 {
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        (*kept)[OST_SIMD_WIDTH * half + slot] = (float)((*number)[slot] / unit);
+    const Four over_unit = __builtin_convertvector(*number * (1.0 / unit), Four);
+    memcpy((float *)kept + OST_SIMD_WIDTH * half, &over_unit, sizeof over_unit);
 }
 
 static void keep_elasticity(const OstLightTets *tets, const OstElasticity *elasticity, int half, Kept *kept)

@@ -175,13 +175,13 @@ static int is_plain(const Cells *cells, OstFormulation formulation)
            !(cells->state && (elasticity->mixed || elasticity->eigenstrained));
 }
 
-/* Forces of a batch by the quickest way; w may be NULL. */
+/* Forces of a batch by the quickest way; w and at_centroid (accuracy/linear_tets.h) may be NULL. */
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
-                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
+                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions, OstSimd *at_centroid)
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
     if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
-        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
+        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions, at_centroid);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
@@ -228,14 +228,6 @@ static void add_own(const OstOperator *operator, const Cells * cells, const OstE
     add_to_nodes(own, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
 }
 
-/* The same where A differs about a line: without C. */
-static void add_own_about_line(const OstOperator *operator, const Cells * cells, const OstSimd *moved, double *force)
-{
-    OstSimd at_nodes[NUMBERS];
-    ost_linear_tets_own_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, moved, at_nodes);
-    add_to_nodes(&cells->batch, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
-}
-
 /* What the forces of a state are wanted for. */
 typedef struct Sum {
     const OstOperator *operator;
@@ -251,19 +243,18 @@ typedef struct Sum {
 static void add_state(const Cells *cells, const OstElement *element, OwnForces by, const OstBatch *own, Sum *sum)
 {
     const OstMesh *mesh = sum->operator->problem->mesh;
-    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE];
+    const int is_about_line = sum->missing && by == OWN_ABOUT_LINE;
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], own_at_nodes[NUMBERS] = {{0}};
     ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
-    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
+    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions, is_about_line ? own_at_nodes : NULL);
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
     if (sum->missing && by == OWN_ALIKE)
         return;
     for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
-        at_nodes[n] = -at_nodes[n];
+        at_nodes[n] = own_at_nodes[n] - at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing && by == OWN_ABOUT_LINE)
-        add_own_about_line(sum->operator, cells, moved, sum->force);
-    else if (sum->missing)
+    if (sum->missing && by == OWN_GATHERED)
         add_own(sum->operator, cells, element, own, moved, sum->force);
 }
 
@@ -388,7 +379,7 @@ static void add_product(const Cells *cells, const OstElement *element, double fa
     OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
     ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
     gather_functions(cells, product->w, more);
-    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
     for (int n = 0; n < 3 * cells->nodes; n++)
         at_nodes[n] *= factor;
     for (int n = 0; n < 3 * cells->functions; n++)
@@ -451,7 +442,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
         gather(operator, first, mesh->owned_tets, &cells);
         ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
         gather_functions(&cells, w, more);
-        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
+        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
         for (int n = 0; n < 3 * cells.nodes; n++)
             sum += (moved[n] - moved[n % 3]) * at_nodes[n];
         for (int n = 0; n < 3 * cells.functions; n++)
@@ -462,35 +453,6 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
 }
 
 /* --- the functions' own blocks --- */
-
-/* With A at a point and g the gradient there: (1 - shear) A g (A g)' + shear (g'A g) A. */
-static inline void add_stretch_block(const OstSimd a[6], double shear, const OstSimd *volume, const OstSimd g[3],
-                                     OstSimd block[9])
-{
-    static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-    OstSimd along[3];
-    for (int i = 0; i < 3; i++)
-        along[i] = a[place[3 * i]] * g[0] + a[place[3 * i + 1]] * g[1] + a[place[3 * i + 2]] * g[2];
-    const OstSimd size = shear * *volume * (g[0] * along[0] + g[1] * along[1] + g[2] * along[2]);
-    for (int p = 0; p < 6; p++) { /* the others are not asked for */
-        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        block[3 * i + j] += (1.0 - shear) * *volume * along[i] * along[j] + size * a[p];
-    }
-}
-
-/* Of quadratic tets whose axes are known by their line. */
-static void add_blocks_about_line(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
-{
-    const OstElasticity *elasticity = &cells->batch.elasticity;
-    memset(block, 0, OST_MAX_FUNCTIONS * sizeof *block);
-    for (int q = 0; q < cells->rule->count; q++) {
-        OstSimd gradient[OST_MAX_FUNCTIONS][3];
-        OstPoint point;
-        evaluate(cells, element, q, &point, gradient);
-        for (int k = 0; k < cells->functions; k++)
-            add_stretch_block(elasticity->stretch_at[q], elasticity->shear, &point.volume, gradient[k], block[k]);
-    }
-}
 
 static void add_blocks(const Cells *cells, const OstElement *element, OstSimd block[OST_MAX_FUNCTIONS][9])
 {
@@ -547,7 +509,8 @@ static void sum_blocks(const OstOperator *operator, double * sum)
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     Cells cells;
     clear_cells(operator, 0, 0.0, &cells);
-    cells.batch.elasticity.line_suffices = cells.nodes == 10 && !cells.turned_by;
+    if (operator->problem->field->form == OST_SPLIT_NOT)
+        cells.points = 0; /* axes at the centroid do for what only preconditions */
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         OstSimd block[OST_MAX_FUNCTIONS][9];
         gather(operator, first, mesh->tet_count, &cells);
@@ -555,8 +518,6 @@ static void sum_blocks(const OstOperator *operator, double * sum)
             ost_linear_tets_blocks(cells.batch.x, &cells.batch.elasticity, block);
         else if (cells.nodes == 10 && cells.batch.elasticity.points == 1 && is_plain(&cells, OST_FORMULATION_LINEAR))
             ost_straight_blocks(cells.batch.x, &cells.batch.elasticity, block);
-        else if (is_about_line(&cells))
-            add_blocks_about_line(&cells, element, block);
         else
             add_blocks(&cells, element, block);
         if (cells.turned_by)

@@ -83,7 +83,7 @@ static void every_level_between_is_visited_twice_with_fixed_weights(void **state
     assert_null(cycle);
 }
 
-static void half_a_cycle_smooths_the_finest_level_once(void **state)
+static void half_a_cycle_smooths_the_finest_level_once_and_visits_the_others_once(void **state)
 {
     (void)state;
     Scalar scalar[LEVELS] = {{.a = 2.0}, {.a = 1.1}, {.a = 0.9}, {.a = 1.25, .is_last = 1}};
@@ -91,11 +91,15 @@ static void half_a_cycle_smooths_the_finest_level_once(void **state)
     double r[LEVELS] = {-2.0, 1.0, 3.5, 0.5}, whole[LEVELS], half[LEVELS];
     assert_success(ost_ml_cycle_apply(cycle, 0, r, whole));
     assert_success(ost_ml_cycle_apply(cycle, 1, r, half));
-    assert_close(half[0], whole[0], 1e-14);
+    assert_close(half[0], r[0] / scalar[LEVELS - 1].a, 1e-14);
     assert_int_equal(scalar[0].visits, 2 + 1);
-    assert_int_equal(scalar[1].visits, 2 * (2 + 2));
+    assert_int_equal(scalar[1].visits, 2 * 2 + 2);
+    assert_int_equal(scalar[3].visits, 4 + 1);
+    const double before = whole[0];
     assert_success(ost_ml_cycle_apply(cycle, 0, r, whole));
+    assert_close(whole[0], before, 1e-14);
     assert_int_equal(scalar[0].visits, 2 + 1 + 2);
+    assert_int_equal(scalar[3].visits, 4 + 1 + 4);
     ost_ml_cycle_destroy(&cycle);
 }
 
@@ -125,7 +129,7 @@ static void a_level_that_is_no_smaller_is_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_level_between_is_visited_twice_with_fixed_weights),
-    cmocka_unit_test(half_a_cycle_smooths_the_finest_level_once),
+    cmocka_unit_test(half_a_cycle_smooths_the_finest_level_once_and_visits_the_others_once),
     cmocka_unit_test(a_failure_inside_comes_back),
     cmocka_unit_test(a_level_that_is_no_smaller_is_refused),
 };

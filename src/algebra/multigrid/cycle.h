@@ -19,8 +19,8 @@ void ost_cycle_destroy(OstCycle **cycle);
  * as `data`. */
 OstStatus ost_cycle_apply(void *data, const double *r, double *z);
 
-/* Collective. The same without the finest level's first smoothing (algebra/trilinos/cycle.h), or, of quadratic tets,
- * with fewer steps in both of theirs; as OstPreconditioner's `half`. */
+/* Collective. Half of it (algebra/trilinos/cycle.h), or, of quadratic tets, a cycle with fewer steps in both of their
+ * smoothings; as OstPreconditioner's `half`. */
 OstStatus ost_cycle_apply_half(void *data, const double *r, double *z);
 
 /* Local. Raises the degree of the smoothers' polynomials by `more`, sets the width of their interval to `ratio`, and

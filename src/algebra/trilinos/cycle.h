@@ -32,7 +32,8 @@ OstStatus ost_ml_cycle_create(OstContext *ctx, int levels, const OstMlLevel *lev
 void ost_ml_cycle_destroy(OstMlCycle **cycle);
 
 /* Collective. z = one cycle from zero for A z = r on level 0; or `half` of it, which smooths that level after the other
- * levels alone: it takes little more than half the time, and is not symmetric, but r'z > 0 all the same. */
+ * levels alone, and visits these once: it takes half the time or less, and is not symmetric, but r'z > 0 all the same.
+ */
 OstStatus ost_ml_cycle_apply(OstMlCycle *cycle, int half, const double *r, double *z);
 
 #endif
