@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/vector.h"
 #include "algebra/saddle/run.h"
+#include "algebra/saddle/saddle.h"
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 

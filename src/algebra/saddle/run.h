@@ -2,10 +2,11 @@
 #ifndef ORTHOSTAT_ALGEBRA_SADDLE_RUN_H
 #define ORTHOSTAT_ALGEBRA_SADDLE_RUN_H
 
+#include "algebra/krylov/goal.h"
 #include "algebra/krylov/lanczos.h"
 #include "algebra/saddle/local_schur.h"
 #include "algebra/saddle/means.h"
-#include "algebra/saddle/saddle.h"
+#include "algebra/saddle/norm.h"
 
 /* A vector of the system: of displacements, and of pressures with room for ghosts. */
 typedef struct OstSaddlePair {
@@ -38,6 +39,7 @@ typedef struct OstSaddleRun {
     int passes, restarts;
     double begun;        /* the weight that the pass began with, over tau squared */
     int lost;            /* has rounding ended it? */
+    double beyond;       /* a step whose curvature over its weight and tau is larger tells that */
     OstSaddlePair start; /* u and p where the pass began */
     double start_norm;   /* their true residual */
     OstLanczos lanczos;

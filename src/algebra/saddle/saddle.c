@@ -195,6 +195,17 @@ static OstStatus judge_error(OstSaddleRun *run)
     return OST_SUCCESS;
 }
 
+/* Is the direction one that rounding has made? Not the first one of a preconditioner that has all digits it may have:
+ * then the eigenvalues are as large as that. */
+static int is_lost(OstSaddleRun *run, int first, double curvature)
+{
+    const double stiff = curvature / (run->tau * run->weight);
+    if (first && run->passes == 0 && run->preconditioner->precise)
+        run->beyond = fmax(run->beyond, beyond * stiff);
+    run->lost = stiff > run->beyond;
+    return run->lost;
+}
+
 /* Steps of a pass. *broken: A - N proves not to be positive definite. */
 static OstStatus iterate(OstSaddleRun *run, int *broken)
 {
@@ -217,8 +228,7 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
         *broken = !(curvature > 0.0 && isfinite(curvature));
         if (*broken)
             return OST_SUCCESS;
-        run->lost = curvature > beyond * run->tau * run->weight;
-        if (run->lost)
+        if (is_lost(run, first, curvature))
             return OST_SUCCESS;
         before = run->weight;
         if (run->passes == 0) /* a run of conjugate gradients; the passes that follow are others */
@@ -419,6 +429,7 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
 {
     OstSaddleRun run = ost_saddle_run_of(system, preconditioner, saddle, f, u, goal);
     run.tau = margin / (preconditioner->factors ? 1.0 : first_eigenvalue);
+    run.beyond = beyond;
     goal->end = OST_END_REACHED;
     if (goal->start == 0.0)
         return OST_SUCCESS;
