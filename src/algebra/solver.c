@@ -280,12 +280,20 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
     return status;
 }
 
+/* Could the same strategy succeed with more digits? The softest motion of a slender body has 1e-8 of the energy of its
+ * nodes' and less: single precision may make a coarse level that has it indefinite. */
+static int may_be_precise(const OstSolver *solver, const OstGoal *goal)
+{
+    return goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise && !solver->is_shared;
+}
+
 /* Is there a next strategy that could succeed? */
 static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
     const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
-    return may_change(solver) && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
+    const int may = may_change(solver) || may_be_precise(solver, goal);
+    return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
 /* The method that converged fastest, AUTO if none did. */
@@ -311,12 +319,11 @@ static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
                      ost_rounding_remedy);
 }
 
-/* Builds the next strategy; if memory does not allow it, the one that converged fastest so far. The softest motion of a
- * slender body has 1e-8 of the energy of its nodes' and less: single precision may make a coarse level that has it
- * indefinite. The same strategy is then built again with more digits. */
+/* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
+ * fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
-    const int again = goal->end == OST_END_PRECONDITIONER && solver->metric && !solver->precise;
+    const int again = may_be_precise(solver, goal);
     const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
     solver->precise |= again;
     OstStatus status = build(solver, next, report->step, &report->steps);

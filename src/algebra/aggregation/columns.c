@@ -14,8 +14,11 @@
 static const double close = 0.1, fewest = 2.5;
 enum { MOST = 100 };
 
-static double length_of(const OstMetricGraph *graph, OstLocal i, OstLocal k)
+/* In space or in the metric; infinite where two nodes must stay apart. */
+static double length_of(const OstMetricGraph *graph, int in_metric, OstLocal i, OstLocal k)
 {
+    if (in_metric || isinf(graph->length[k]))
+        return graph->length[k];
     const double *a = graph->position + 3 * (size_t)i, *b = graph->position + 3 * (size_t)graph->neighbour[k];
     const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     return sqrt(ost_dot3(d, d));
@@ -29,25 +32,28 @@ static OstLocal root_of(OstLocal *set, OstLocal i)
 }
 
 /* The length below which an edge of the node is short. */
-static double short_length(const OstMetricGraph *graph, OstLocal i)
+static double short_length(const OstMetricGraph *graph, int in_metric, OstLocal i)
 {
-    double sum = 0.0;
-    for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++)
-        sum += length_of(graph, i, k);
-    return close * sum / fmax((double)(graph->edge_start[i + 1] - graph->edge_start[i]), 1.0);
+    double sum = 0.0, count = 0.0;
+    for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
+        const double length = length_of(graph, in_metric, i, k);
+        sum += isinf(length) ? 0.0 : length;
+        count += !isinf(length);
+    }
+    return close * sum / fmax(count, 1.0);
 }
 
 /* Joins the ends of short edges. The root of a set is its first node. */
-static void join(const OstMetricGraph *graph, OstLocal *set, double *limit)
+static void join(const OstMetricGraph *graph, int in_metric, OstLocal *set, double *limit)
 {
     for (OstLocal i = 0; i < graph->nodes; i++) {
         set[i] = i;
-        limit[i] = short_length(graph, i);
+        limit[i] = short_length(graph, in_metric, i);
     }
     for (OstLocal i = 0; i < graph->nodes; i++)
         for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++) {
             const OstLocal j = graph->neighbour[k];
-            if (j < i || isinf(graph->length[k]) || length_of(graph, i, k) > fmin(limit[i], limit[j]))
+            if (j < i || length_of(graph, in_metric, i, k) > fmin(limit[i], limit[j]))
                 continue;
             const OstLocal a = root_of(set, i), b = root_of(set, j);
             set[a > b ? a : b] = a < b ? a : b;
@@ -67,7 +73,7 @@ static OstLocal number_sets(OstLocal nodes, OstLocal *set, OstLocal *size, OstAg
     return largest;
 }
 
-static OstStatus group(const OstMetricGraph *graph, OstAggregates *columns, OstLocal *largest)
+static OstStatus group(const OstMetricGraph *graph, int in_metric, OstAggregates *columns, OstLocal *largest)
 {
     OstContext *ctx = graph->ctx;
     const OstLocal n = graph->nodes;
@@ -77,7 +83,7 @@ static OstStatus group(const OstMetricGraph *graph, OstAggregates *columns, OstL
     OST_TRY_DONE(OST_NEW(ctx, &set, 2 * (size_t)n));
     OST_TRY_DONE(OST_NEW(ctx, &limit, n));
     OST_TRY_DONE(OST_NEW(ctx, &columns->of_node, n));
-    join(graph, set, limit);
+    join(graph, in_metric, set, limit);
     *largest = number_sets(n, set, set + n, columns);
 done:
     OST_FREE(set);
@@ -85,7 +91,7 @@ done:
     return status;
 }
 
-OstStatus ost_columns_create(const OstMetricGraph *graph, OstAggregates **columns)
+static OstStatus find(const OstMetricGraph *graph, int in_metric, OstAggregates **columns)
 {
     OstContext *ctx = graph->ctx;
     OstLocal largest = 0;
@@ -93,7 +99,7 @@ OstStatus ost_columns_create(const OstMetricGraph *graph, OstAggregates **column
     OstStatus status = OST_NEW(ctx, columns, 1);
     if (status == OST_SUCCESS) {
         (*columns)->ctx = ctx;
-        status = group(graph, *columns, &largest);
+        status = group(graph, in_metric, *columns, &largest);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     OstGlobal count[2] = {(*columns)->count, graph->nodes}, most = largest;
@@ -105,4 +111,10 @@ done:
     if (status != OST_SUCCESS)
         ost_aggregates_destroy(columns);
     return status;
+}
+
+OstStatus ost_columns_create(const OstMetricGraph *graph, OstAggregates **columns)
+{
+    OST_TRY(find(graph, 0, columns));
+    return *columns ? OST_SUCCESS : find(graph, 1, columns);
 }

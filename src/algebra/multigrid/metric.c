@@ -281,7 +281,10 @@ void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)
 void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPreconditioner *cycle)
 {
     *system = (OstCgSystem){.matrix = metric->matrix, .scaling = metric->scaling};
-    *cycle = (OstPreconditioner){.data = metric->cycle, .apply = ost_cycle_apply, .half = ost_cycle_apply_half};
+    *cycle = (OstPreconditioner){.data = metric->cycle,
+                                 .apply = ost_cycle_apply,
+                                 .half = ost_cycle_apply_half,
+                                 .precise = metric->options.precise > 0};
 }
 
 void ost_metric_report(const OstMetric *metric, OstSolveReport *report)

@@ -2,6 +2,7 @@
 #include "algebra/saddle/error.h"
 
 #include "algebra/krylov/precondition.h"
+#include "algebra/saddle/local_schur.h"
 #include "algebra/saddle/means.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -15,6 +16,7 @@ static const double residual_beside = 1e-2;
 
 typedef struct Work {
     OstSoftMeans *means;
+    OstLocalSchur *local;
     double *memory, *scaled, *wide, *force, *q, *schur;
 } Work;
 
@@ -29,6 +31,7 @@ static OstStatus create(const OstCgSystem *system, const OstPreconditioner *prec
     work->wide = work->force + n;
     work->q = work->wide + columns;
     work->schur = work->q + m;
+    OST_TRY(ost_local_schur_create(system, coupling, &work->local));
     return ost_soft_means_create(system, preconditioner, coupling, &work->means);
 }
 
@@ -47,6 +50,8 @@ static OstStatus apply(const OstCgSystem *system, const OstPreconditioner *preco
     OST_TRY(ost_coupling_schur_solve(coupling, work->q, saddle->p, work->schur));
     if (work->means)
         OST_TRY(ost_soft_means_add(work->means, work->q, saddle->p));
+    if (work->local)
+        OST_TRY(ost_local_schur_add(work->local, work->q, saddle->p));
     OST_TRY(ost_coupling_transpose(coupling, saddle->p, work->force));
     for (size_t i = 0; i < n; i++)
         work->force[i] = r_u[i] - work->force[i];
@@ -91,6 +96,7 @@ OstStatus ost_saddle_error(const OstCgSystem *system, const OstPreconditioner *p
     OstStatus status = create(system, preconditioner, saddle->coupling, &work);
     OST_THEN(apply(system, preconditioner, saddle, scale, r_u, &work, e_u));
     ost_soft_means_destroy(&work.means);
+    ost_local_schur_destroy(&work.local);
     OST_FREE(work.memory);
     return status;
 }

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef ORTHOSTAT_ALGEBRA_SADDLE_LOCAL_SCHUR_H
+#define ORTHOSTAT_ALGEBRA_SADDLE_LOCAL_SCHUR_H
+
+#include "algebra/krylov/preconditioner.h"
+#include "algebra/saddle/coupling.h"
+
+/* What the mass matrix does not know of the pressures' Schur complement S: next to far stiffer material, where a ratio
+ * of moduli leaves the displacements of few tets free, S is far below it, at pressures that differ from node to node.
+ * T = B D^-1 B' + C, with D the diagonal blocks of A, is small there too, and known. A share of T^-1, by Chebyshev
+ * steps, is added to the mass matrix's inverse; the steps leave out the smooth pressures, of which T knows nothing. */
+typedef struct OstLocalSchur OstLocalSchur;
+
+/* Collective. *local is NULL where the diagonals of T and S are not apart, or the system has no scaling. */
+OstStatus ost_local_schur_create(const OstCgSystem *system, const OstCoupling *coupling, OstLocalSchur **local);
+void ost_local_schur_destroy(OstLocalSchur **local);
+
+/* Collective. z = z + its share of T^-1 r, of owned pressures. */
+OstStatus ost_local_schur_add(OstLocalSchur *local, const double *r, double *z);
+
+#endif
