@@ -220,10 +220,12 @@ static void gather_own(const OstOperator *operator, const Cells * cells, const O
                      cells->batch.tet);
 }
 
+/* A tet's nodes have an order of their own there. */
 static void add_own(const OstOperator *operator, const Cells * cells, const OstElement *element, const OstBatch *own,
-                    const OstSimd *moved, double *force)
+                    const double *u, double *force)
 {
-    OstSimd at_nodes[NUMBERS];
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS];
+    ost_batch_gather_vectors(own, cells->nodes, u, moved);
     element->force(own->x, &own->elasticity, moved, at_nodes);
     add_to_nodes(own, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
 }
@@ -246,7 +248,8 @@ static void add_state(const Cells *cells, const OstElement *element, OwnForces b
     const int is_about_line = sum->missing && by == OWN_ABOUT_LINE;
     OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], own_at_nodes[NUMBERS] = {{0}};
     ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
-    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions, is_about_line ? own_at_nodes : NULL);
+    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions,
+                is_about_line ? own_at_nodes : NULL);
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
     if (sum->missing && by == OWN_ALIKE)
@@ -255,7 +258,7 @@ static void add_state(const Cells *cells, const OstElement *element, OwnForces b
         at_nodes[n] = own_at_nodes[n] - at_nodes[n];
     add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
     if (sum->missing && by == OWN_GATHERED)
-        add_own(sum->operator, cells, element, own, moved, sum->force);
+        add_own(sum->operator, cells, element, own, sum->u, sum->force);
 }
 
 /* Keeps the points of curved tets, which all displacements of a visit share. */
