@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "guard/guard.h"
 
 #include <math.h>
 #include <stdio.h>

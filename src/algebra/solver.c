@@ -13,7 +13,6 @@
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -9,7 +9,6 @@
 #include "output/series.h"
 #include "output/summary.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

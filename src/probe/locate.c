@@ -10,7 +10,6 @@
 #include "element/tets.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* A point this much outside, of a tet's height, is on its surface but for rounding; one that is less than `near`
  * outside belongs to the tet if no other holds it. */

@@ -6,7 +6,6 @@
 #include "assembly/supports.h"
 #include "assembly/system.h"
 #include "case/case_data.h"
-#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"

@@ -3,14 +3,12 @@
 
 #include "assembly/links/face_search.h"
 #include "assembly/spread.h"
-#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "recovery/recovery.h"
 
 #include "assembly/batch.h"
-#include "case/case_data.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"

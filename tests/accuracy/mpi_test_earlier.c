@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/earlier.h"
-#include "core/error.h"
 #include "support.h"
 
 #include <float.h>

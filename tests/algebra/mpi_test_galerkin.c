@@ -2,7 +2,6 @@
 #include "algebra/level/galerkin.h"
 
 #include "algebra/aggregation/aggregates.h"
-#include "algebra/level/block_sum.h"
 #include "algebra/level/fetched_rows.h"
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "elastic_block.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
-#include "core/error.h"
 #include "core/memory.h"
 #include "support.h"
 #include "system_matrix.h"

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "core/error.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"

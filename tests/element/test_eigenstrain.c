@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element_support.h"
 
-#include "core/small.h"
-
 /* Linear kernels with an eigenstrain e0: stress = C (strain - e0), by tets of 4 nodes, of 10 with straight and curved
  * edges, and with C split. */
 

@@ -3,7 +3,6 @@
 #include "two_cubes.h"
 
 #include "mesh/mesh_data.h"
-#include "orthostat/mesh_file.h"
 
 /* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8, meshio 5.0 and FreeFEM 4.11 write it, and by hand as ElmerGrid
  * does (groups of tag 0 alone, and the material as elementary tag); the counts are those of libgmsh. In two of the

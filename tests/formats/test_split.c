@@ -4,7 +4,6 @@
 #include "core/index_map.h"
 #include "core/small.h"
 #include "formats/cells/shapes.h"
-#include "formats/cells/split.h"
 #include "formats/serial/formats.h"
 #include "mesh/mesh_data.h"
 

@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "core/small.h"
 #include "hard_grid/exact_tet.h"
 
 #include <math.h>

@@ -3,9 +3,6 @@
 
 #include "hard_grid/grid.h"
 
-#include <math.h>
-#include <string.h>
-
 /* Inclusions 1e9 times softer in a body of nu = 1/2, without a factorisation: their mean pressures, which the stiff
  * body alone holds, are solved for on their own. By the mass matrix alone the first takes 316 iterations and states no
  * digit, and the second 418. */

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/scene_data.h"
 #include "support.h"
 
 #include "core/memory.h"
-#include "orthostat/orthostat.h"
 #include "orthostat/refine.h"
 #include "problem/coarse_space.h"
 

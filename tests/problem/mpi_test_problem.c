@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
-#include "problem/scene_data.h"
 
 #include "core/parallel/reduce.h"
-#include "orthostat/analysis.h"
-#include "orthostat/orthostat.h"
 #include "orthostat/refine.h"
 #include "problem/problem.h"
 

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
 #include "problem/result_data.h"
-#include "problem/scene_data.h"
 
 #include "orthostat/analysis.h"
-#include "orthostat/orthostat.h"
 
 /* Several loads on one hierarchy, and what speaks against solving, in one verdict. */
 

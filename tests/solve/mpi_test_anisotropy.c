@@ -2,8 +2,6 @@
 #include "problem/scene_data.h"
 #include "support.h"
 
-#include "orthostat/orthostat.h"
-
 #include <stdlib.h>
 
 /* The paper's tube of 129,600 tets, and how many iterations it may take on one rank to a true residual of 1e-8: what

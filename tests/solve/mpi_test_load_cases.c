@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/analysis.h"
 #include "orthostat/load_cases.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 #include "support.h"
-
-#include <string.h>
 
 /* Load cases are what each would be alone, on one stiffness for all that share supports. */
 

@@ -2,7 +2,6 @@
 #include "../case/case_text.h"
 
 #include "core/parallel/reduce.h"
-#include "problem/scene_data.h"
 #include "run.h"
 
 /* Bytes of our own arrays at the peak of a run from the mesh to the checked answer, over its unknowns; on all ranks. */

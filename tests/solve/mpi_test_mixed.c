@@ -3,7 +3,6 @@
 #include "two_layers.h"
 
 #include "core/parallel/reduce.h"
-#include "problem/problem.h"
 #include "recovery/derived.h"
 
 /* The mixed form: quadratic tets whose pressure is an unknown of its own, for nu up to 1/2. */

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
-#include "core/memory.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
 

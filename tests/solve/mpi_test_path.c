@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
 
-#include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "orthostat/orthostat.h"
 #include "problem/problem.h"
 #include "problem/scene_data.h"
 #include "solve/path_data.h"

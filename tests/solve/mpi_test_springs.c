@@ -4,8 +4,6 @@
 #include "guard/guard.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
-
 /* Elastic foundations and springs, against formulas. */
 
 static OstStatus solve(const char *text, OstCase **c, OstScene **scene, OstResult **result)

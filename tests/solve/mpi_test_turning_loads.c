@@ -2,8 +2,6 @@
 #include "../case/case_text.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
-
 /* Moments, forces at a point and centrifugal loads, against formulas. */
 
 typedef struct Solved {

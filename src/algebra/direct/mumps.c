@@ -10,7 +10,6 @@
 #include <float.h>
 #include <limits.h>
 #include <stdio.h>
-#include <string.h>
 
 /* The MUMPS manual numbers controls and results from 1. */
 #define ICNTL(k) icntl[(k)-1]

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/level/prolongator.h"
 
-#include "core/error.h"
 #include "core/kernel.h"
 #include "core/memory.h"
 

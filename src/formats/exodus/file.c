@@ -4,9 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 #include <strings.h>
 
 /* Where Exodus' nodes of quadratic hexahedra and wedges go: it has the middles of upright edges before those of the

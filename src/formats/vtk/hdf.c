@@ -10,7 +10,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 /* VTKHDF files of other programs that hold other cells than tets. Files of tets alone, and those of Orthostat, are read
  * by all ranks (formats/vtkhdf). */

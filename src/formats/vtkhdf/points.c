@@ -6,7 +6,6 @@
 #include "core/number_set.h"
 #include "formats/vtkhdf/match.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* What must be equal for two points to match. */

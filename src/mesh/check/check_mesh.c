@@ -9,7 +9,6 @@
 
 #include <float.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { LABELS_SHOWN = 8 };
 

@@ -7,7 +7,6 @@
 #include "mesh/components/component_faces.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 void ost_components_destroy(OstComponents **components)

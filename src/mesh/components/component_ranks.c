@@ -9,7 +9,6 @@
 #include "mesh/union_find.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* A tet that is owned on one rank and a ghost on others: its vertices' global numbers, ascending, and a rank's set of
  * it.

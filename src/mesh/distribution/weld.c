@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/rendezvous.h"
 #include "core/parallel/route.h"

@@ -3,8 +3,6 @@
 #include "core/memory.h"
 #include "mesh/refinement/mid_nodes.h"
 
-#include <string.h>
-
 void ost_edge_table_clear(EdgeTable *table)
 {
     OST_FREE(table->start);

@@ -4,11 +4,9 @@
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const ost_scale_state_word[] = {"waiting", "done", "not run", "failed"};
 
