@@ -27,10 +27,7 @@ void ost_stage_destroy(OstStage **stage)
     if (!*stage)
         return;
     release_analysis(*stage);
-    OST_FREE((*stage)->start);
-    OST_FREE((*stage)->fall);
-    OST_FREE((*stage)->before);
-    OST_FREE((*stage)->cuts);
+    OST_FREE((*stage)->start, (*stage)->fall, (*stage)->before, (*stage)->cuts);
     ost_result_destroy(&(*stage)->result);
     ost_bisection_destroy(&(*stage)->bisection);
     ost_scene_destroy(&(*stage)->scene);
@@ -70,8 +67,7 @@ static OstStatus learn(OstStage *stage)
                          : stage->cuts[t] == 0 ? before[1]
                                                : ost_found_fall(order, before[0], share_of(stage, t), stage->cuts[t]);
     }
-    OST_FREE(stage->before);
-    OST_FREE(stage->cuts);
+    OST_FREE(stage->before, stage->cuts);
     return OST_SUCCESS;
 }
 
@@ -170,8 +166,7 @@ static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisecti
     OST_TRY_DONE(ost_mark(mesh, share, stage->fall, marking, times));
     OST_TRY_DONE(ost_bisection_split(bisection, times, &surface, chunk));
 done:
-    OST_FREE(times);
-    OST_FREE(share);
+    OST_FREE(times, share);
     return status;
 }
 

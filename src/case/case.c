@@ -490,9 +490,7 @@ void ost_case_destroy(OstCase **c)
     if (!*c)
         return;
     for (int i = 0; i < (*c)->material_count; i++) {
-        OST_FREE((*c)->materials[i].region);
-        OST_FREE((*c)->materials[i].eigen_field);
-        OST_FREE((*c)->materials[i].modulus.field);
+        OST_FREE((*c)->materials[i].region, (*c)->materials[i].eigen_field, (*c)->materials[i].modulus.field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
@@ -505,27 +503,19 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->springs[i].on);
     OST_FREE((*c)->springs);
     for (int i = 0; i < (*c)->watch_count; i++) {
-        OST_FREE((*c)->watches[i].name);
-        OST_FREE((*c)->watches[i].source);
-        OST_FREE((*c)->watches[i].region);
+        OST_FREE((*c)->watches[i].name, (*c)->watches[i].source, (*c)->watches[i].region);
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);
     ost_probes_release((*c)->probe_count, &(*c)->probes);
     for (int i = 0; i < (*c)->table_count; i++)
         ost_time_table_release(&(*c)->tables[i]);
-    OST_FREE((*c)->tables);
-    OST_FREE((*c)->path_times);
+    OST_FREE((*c)->tables, (*c)->path_times);
     ost_verify_release(&(*c)->verify);
     ost_load_cases_release(*c);
     ost_sweep_release(*c);
-    OST_FREE((*c)->materials);
-    OST_FREE((*c)->constraints);
-    OST_FREE((*c)->loads);
-    OST_FREE((*c)->path);
-    OST_FREE((*c)->title);
-    OST_FREE((*c)->mesh_file);
-    OST_FREE((*c)->output_file);
+    OST_FREE((*c)->materials, (*c)->constraints, (*c)->loads, (*c)->path, (*c)->title, (*c)->mesh_file,
+             (*c)->output_file);
     OST_FREE(*c);
 }
 

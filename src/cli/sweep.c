@@ -106,9 +106,7 @@ static OstStatus read_over(OstContext *ctx, const char *over, OstSweepKey *key)
 static void release_keys(int count, OstSweepKey *keys)
 {
     for (int k = 0; k < count; k++) {
-        for (int i = 0; i < keys[k].count; i++)
-            OST_FREE(keys[k].value[i]);
-        OST_FREE(keys[k].value);
+        OST_FREE_EACH(keys[k].count, keys[k].value);
         OST_FREE(keys[k].key);
     }
 }

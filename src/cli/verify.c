@@ -231,8 +231,7 @@ done:
         arguments->all_passed &= reports[i] != NULL && reports[i]->passed;
         ost_verify_report_destroy(&reports[i]);
     }
-    OST_FREE(reports);
-    OST_FREE(list.path);
+    OST_FREE(reports, list.path);
     return status;
 }
 

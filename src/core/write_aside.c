@@ -111,8 +111,7 @@ OstStatus ost_aside_open_together(OstContext *ctx, const char *path, OstAside *a
 
 static void release(OstAside *aside)
 {
-    OST_FREE(aside->path);
-    OST_FREE(aside->aside);
+    OST_FREE(aside->path, aside->aside);
 }
 
 OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written)

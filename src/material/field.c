@@ -336,9 +336,7 @@ static OstStatus split_mixed(OstContext *ctx, const OstMaterial *material, doubl
 
 static void forget_split(OstSplit *split)
 {
-    OST_FREE(split->stiff_mode);
-    OST_FREE(split->rest);
-    OST_FREE(split->looseness);
+    OST_FREE(split->stiff_mode, split->rest, split->looseness);
 }
 
 static OstStatus make_room(OstContext *ctx, int regions, OstSplit *split)
@@ -443,13 +441,7 @@ void ost_field_destroy(OstMaterialField **field)
     destroy_formulas(*field);
     forget_split(&(*field)->mean);
     forget_split(&(*field)->mixed);
-    OST_FREE((*field)->tet_scale);
-    OST_FREE((*field)->region_eigenstrain);
-    OST_FREE((*field)->tet_eigenstrain);
-    OST_FREE((*field)->material);
-    OST_FREE((*field)->region_stiffness);
-    OST_FREE((*field)->region_axes);
-    OST_FREE((*field)->region_varies);
-    OST_FREE((*field)->tet_turn);
+    OST_FREE((*field)->tet_scale, (*field)->region_eigenstrain, (*field)->tet_eigenstrain, (*field)->material,
+             (*field)->region_stiffness, (*field)->region_axes, (*field)->region_varies, (*field)->tet_turn);
     OST_FREE(*field);
 }

@@ -156,9 +156,7 @@ static OstStatus take_answers(const OstPoints *points, OstLocal answers, const A
         *mine = arrived[i].lowest < *mine ? arrived[i].lowest : *mine;
     }
 done:
-    OST_FREE(end);
-    OST_FREE(to);
-    OST_FREE(arrived);
+    OST_FREE(end, to, arrived);
     ost_route_destroy(&route);
     return status;
 }
@@ -183,10 +181,7 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     OST_TRY_DONE(ost_agree(ctx, compare_within_cubes(ctx, route->receives, arrived, tolerance, &answers, &answer)));
     OST_TRY_DONE(take_answers(points, answers, answer, lowest));
 done:
-    OST_FREE(point);
-    OST_FREE(arrived);
-    OST_FREE(answer);
-    OST_FREE(to);
+    OST_FREE(point, arrived, answer, to);
     ost_route_destroy(&route);
     return status;
 }

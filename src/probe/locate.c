@@ -182,9 +182,6 @@ OstStatus ost_locate(const OstMesh *mesh, OstLocal count, const double *points, 
     search(mesh, count, points, sorted, &found);
     status = agree(ctx, count, found.outside, least, label, located);
 done:
-    OST_FREE(sorted);
-    OST_FREE(found.outside);
-    OST_FREE(least);
-    OST_FREE(label);
+    OST_FREE(sorted, found.outside, least, label);
     return status;
 }

@@ -211,8 +211,7 @@ static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint,
                  "name the faces of the other part",
                  scene->c->path, constraint->line);
     ost_face_search_destroy(&search);
-    OST_FREE(nodes);
-    OST_FREE(faces);
+    OST_FREE(nodes, faces);
     return status;
 }
 
@@ -365,9 +364,7 @@ static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constr
         if (cell.follows[n])
             status = link_periodic(&cell, n, factor, links);
     status = ost_agree(scene->ctx, status);
-    OST_FREE(cell.leads);
-    OST_FREE(cell.follows);
-    OST_FREE(cell.corner);
+    OST_FREE(cell.leads, cell.follows, cell.corner);
     return status;
 }
 

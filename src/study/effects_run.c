@@ -51,8 +51,7 @@ static OstStatus take_pose(const OstMesh *mesh, const double *displacement, Pose
     qsort(pose->node, (size_t)pose->count, sizeof *pose->node, by_label);
 done:
     ost_route_destroy(&route);
-    OST_FREE(mine);
-    OST_FREE(to);
+    OST_FREE(mine, to);
     return status;
 }
 

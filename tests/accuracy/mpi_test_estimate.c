@@ -203,8 +203,7 @@ static void energy_errors_have_a_sign(void **state)
     const double truth = better->value + better->error - found->value;
     assert_true(truth < 0.0);
     assert_close(found->error, truth, 0.5 * fabs(truth));
-    OST_FREE(found);
-    OST_FREE(better);
+    OST_FREE(found, better);
     release(&coarse);
     release(&fine);
     Answer both = solve(CUBE STEEL MOVED HEAVY ENERGY FINE, 1, 0);

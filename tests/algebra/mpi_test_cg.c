@@ -130,8 +130,7 @@ static void scaling_gives_the_solution_of_the_unscaled_system(void **state)
     for (size_t i = 0; i < n; i++)
         assert_close(u[0][i], u[1][i], 1e-9);
     assert_true(report[0].iterations < report[1].iterations);
-    OST_FREE(u[0]);
-    OST_FREE(u[1]);
+    OST_FREE(u[0], u[1]);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }

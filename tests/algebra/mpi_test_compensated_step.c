@@ -49,9 +49,7 @@ static void a_mode_that_factors_miss_takes_one_step_more(void **state)
     }
     assert_true(largest_residual(&problem, u, residual) < 1e-14);
     ost_compensated_step_destroy(&step);
-    OST_FREE(u);
-    OST_FREE(residual);
-    OST_FREE(correction);
+    OST_FREE(u, residual, correction);
     elastic_destroy(&problem);
 }
 
@@ -85,8 +83,7 @@ static void what_rounding_hides_of_an_energy_is_found(void **state)
     if (first) /* r·p / p·Ap of p */
         assert_close(correction[1], p[0] / expected * p[1], 1e-9 * p[0] / expected * p[1]);
     ost_compensated_step_destroy(&step);
-    OST_FREE(correction);
-    OST_FREE(residual);
+    OST_FREE(correction, residual);
     elastic_destroy(&problem);
 }
 
@@ -111,8 +108,7 @@ static void a_direction_without_energy_is_left_alone(void **state)
         assert_true(correction[i] == 1.0);
     assert_true(step->energy == 0.0);
     ost_compensated_step_destroy(&step);
-    OST_FREE(zero);
-    OST_FREE(correction);
+    OST_FREE(zero, correction);
     elastic_destroy(&problem);
 }
 

@@ -93,10 +93,7 @@ static void destroy(Known *known)
     ost_mumps_destroy(&known->factors);
     ost_scaling_destroy(&known->scaling);
     elastic_destroy(&known->problem);
-    OST_FREE(known->solution);
-    OST_FREE(known->f);
-    OST_FREE(known->u);
-    OST_FREE(known->work);
+    OST_FREE(known->solution, known->f, known->u, known->work);
 }
 
 static OstEnergyError estimate(Known *known)
@@ -118,8 +115,7 @@ static double displacement_error(const Known *known, double unit)
         u[i] = known->u[i] * unit;
     }
     const double error = sqrt(dot(known->n, off, off) / dot(known->n, u, u));
-    OST_FREE(off);
-    OST_FREE(u);
+    OST_FREE(off, u);
     return error;
 }
 
@@ -134,8 +130,7 @@ static double displace(Known *known, double size, double unit)
     }
     multiply(known, off, product);
     const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->u));
-    OST_FREE(off);
-    OST_FREE(product);
+    OST_FREE(off, product);
     return error;
 }
 
@@ -212,8 +207,7 @@ static double moved(Known *known, double share, int round)
     const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->solution));
     ost_mumps_destroy(&factors);
     elastic_destroy(&other);
-    OST_FREE(off);
-    OST_FREE(product);
+    OST_FREE(off, product);
     return error;
 }
 

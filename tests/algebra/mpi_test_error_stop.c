@@ -42,8 +42,7 @@ static Body create(const ElasticBlock *block)
 static void destroy(Body *body)
 {
     ost_solver_destroy(&body->solver);
-    OST_FREE(body->u);
-    OST_FREE(body->solution);
+    OST_FREE(body->u, body->solution);
     elastic_destroy(&body->problem);
 }
 
@@ -60,8 +59,7 @@ static double energy_norm(const Body *body, const double *v)
     for (size_t i = 0; i < body->n; i++)
         square += x[i] * y[i];
     MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    OST_FREE(x);
-    OST_FREE(y);
+    OST_FREE(x, y);
     return sqrt(square);
 }
 

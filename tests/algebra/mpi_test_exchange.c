@@ -35,8 +35,7 @@ static void it_moves_the_same_numbers_as_the_halo(void **state)
         assert_success(ost_halo_add_to_owners(halo, width, expected));
         for (size_t i = 0; i < count; i++)
             assert_close(x[i], expected[i], 1e-15 * fabs(expected[i]));
-        OST_FREE(x);
-        OST_FREE(expected);
+        OST_FREE(x, expected);
         ost_exchange_destroy(&exchange);
         assert_null(exchange);
     }

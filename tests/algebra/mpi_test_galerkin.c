@@ -133,11 +133,7 @@ static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
     assert_true(size > 1.0);
     for (size_t i = 0; i < n; i++)
         assert_close(cx[i], expected[i], 1e-13 * size);
-    OST_FREE(x);
-    OST_FREE(cx);
-    OST_FREE(px);
-    OST_FREE(apx);
-    OST_FREE(expected);
+    OST_FREE(x, cx, px, apx, expected);
     destroy_coarse(&c);
 }
 
@@ -164,10 +160,7 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
             for (int s = 0; s < r; s++)
                 assert_close(diagonal[6 * r + s], diagonal[6 * s + r], 1e-12);
     }
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(ax);
-    OST_FREE(ay);
+    OST_FREE(x, y, ax, ay);
     destroy_coarse(&c);
 }
 
@@ -210,8 +203,7 @@ static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
                            c.tentative->modes[6 * (m * c.coarse->rows + of_node[i]) + k];
                 assert_close(sum, c.problem.geometry.modes[m * 3 * rows + 3 * i + r], 1e-5);
             }
-    OST_FREE(ones);
-    OST_FREE(force);
+    OST_FREE(ones, force);
     destroy_coarse(&c);
 }
 

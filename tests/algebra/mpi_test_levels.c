@@ -96,10 +96,7 @@ static void check_galerkin(const Setup *setup)
         const double energy = global_dot(owned(coarse), x, ax);
         assert_true(energy > 0.0);
         assert_close(global_dot(owned(fine), px, apx) / energy, 1.0, 1e-5); /* single precision */
-        OST_FREE(x);
-        OST_FREE(px);
-        OST_FREE(ax);
-        OST_FREE(apx);
+        OST_FREE(x, px, ax, apx);
     }
 }
 
@@ -181,10 +178,7 @@ static double fit(const OstProlongator *p, size_t coarse_owned, const double *m,
             residual[i] -= step * image[i];
     }
     const double error = sqrt(global_dot(n, residual, residual) / global_dot(n, m, m));
-    OST_FREE(residual);
-    OST_FREE(gradient);
-    OST_FREE(direction);
-    OST_FREE(image);
+    OST_FREE(residual, gradient, direction, image);
     return error;
 }
 
@@ -203,8 +197,7 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
             ost_level_matrix_add(coarse, 1.0, c, ac);
             const double force = sqrt(global_dot(owned(coarse), ac, ac) / global_dot(owned(coarse), c, c));
             assert_true(force < 1e-5); /* the scaled matrix' largest eigenvalues are about 3 */
-            OST_FREE(m);
-            OST_FREE(ac);
+            OST_FREE(m, ac);
             m = c;
         }
         OST_FREE(m);
@@ -227,10 +220,7 @@ static void the_smoother_is_symmetric_and_positive(void **state)
         const double xx = global_dot(owned(a), x, mx), yy = global_dot(owned(a), y, my);
         assert_true(xx > 0.0 && yy > 0.0);
         assert_close(global_dot(owned(a), x, my), global_dot(owned(a), y, mx), 1e-5 * sqrt(xx * yy));
-        OST_FREE(x);
-        OST_FREE(y);
-        OST_FREE(mx);
-        OST_FREE(my);
+        OST_FREE(x, y, mx, my);
     }
     tear_down(&s);
 }
@@ -255,10 +245,7 @@ static void the_cycle_is_symmetric_and_positive(void **state)
     const double of_half = global_dot(owned(a), x, mx) / xx;
     print_message("half a cycle: %.3f of the whole one's product\n", of_half);
     assert_true(of_half > 0.0);
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(mx);
-    OST_FREE(my);
+    OST_FREE(x, y, mx, my);
     ost_cycle_destroy(&cycle);
     tear_down(&s);
 }
@@ -276,8 +263,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     const double size = global_dot(owned(a), b, b);
     ost_level_matrix_add(a, -1.0, x, b);
     assert_true(sqrt(global_dot(owned(a), b, b) / size) < 1e-4); /* the product is in single precision */
-    OST_FREE(b);
-    OST_FREE(x);
+    OST_FREE(b, x);
     ost_coarsest_destroy(&coarsest);
     tear_down(&s);
 }

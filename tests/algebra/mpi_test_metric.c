@@ -72,8 +72,7 @@ static void answer_and_effort_do_not_depend_on_the_ranks(void **state)
     assert_true(largest > 0.0);
     assert_true(difference <= 1e-9 * largest);
     assert_true(report.iterations <= 1.3 * report_alone.iterations);
-    OST_FREE(u);
-    OST_FREE(u_alone);
+    OST_FREE(u, u_alone);
     elastic_destroy(&shared);
     elastic_destroy(&whole);
     ost_context_destroy(&alone);
@@ -215,8 +214,7 @@ static void a_bad_metric_is_refused_on_all_ranks(void **state)
     problem.geometry.metric = metric;
     double *u = new_solution(&problem);
     assert_failure(solve(ctx, &problem, 1e-8, u, &report), OST_INVALID_INPUT, "metric at node 100");
-    OST_FREE(u);
-    OST_FREE(metric);
+    OST_FREE(u, metric);
     elastic_destroy(&problem);
 }
 

@@ -28,8 +28,7 @@ static Rounded make(void)
 static void destroy(Rounded *rounded)
 {
     elastic_destroy(&rounded->problem);
-    OST_FREE(rounded->u);
-    OST_FREE(rounded->force);
+    OST_FREE(rounded->u, rounded->force);
 }
 
 /* Something of every mode, the same on any ranks; `kind` of many. */

@@ -63,9 +63,7 @@ static void the_scaled_blocks_are_those_of_the_factors(void **state)
     ost_scaling_to_scaled(scaling, y[1], y[1]);
     for (size_t i = 0; i < n; i++)
         assert_close(y[0][i], y[1][i], 1e-12);
-    OST_FREE(x);
-    OST_FREE(y[0]);
-    OST_FREE(y[1]);
+    OST_FREE(x, y[0], y[1]);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }
@@ -95,8 +93,7 @@ static void scaling_there_and_back_changes_nothing(void **state)
     ost_scaling_from_scaled(scaling, there, back);
     for (size_t i = 0; i < n; i++)
         assert_close(back[i], f[i], 1e-13);
-    OST_FREE(there);
-    OST_FREE(back);
+    OST_FREE(there, back);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }

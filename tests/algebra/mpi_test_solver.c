@@ -63,8 +63,7 @@ static double true_residual(const ElasticProblem *problem, const double *u)
     for (size_t i = 0; i < n; i++)
         r[i] -= problem->force[i];
     const double residual = norm_over_ranks(n, r) / norm_over_ranks(n, problem->force);
-    OST_FREE(x);
-    OST_FREE(r);
+    OST_FREE(x, r);
     return residual;
 }
 
@@ -429,8 +428,7 @@ static void new_values_are_solved_with(void **state)
             for (size_t i = 0; i < n; i++)
                 assert_close(3.0 * u[i], first[i], 1e-6 * (1.0 + fabs(first[i])));
             ost_solver_destroy(&solver);
-            OST_FREE(u);
-            OST_FREE(first);
+            OST_FREE(u, first);
             elastic_destroy(&problem);
         }
 }

@@ -111,8 +111,7 @@ static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
     assert_int_equal(report.method, report.step[report.steps - 1].method);
     assert_true(report.relative_residual <= 1e-10);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
@@ -135,8 +134,7 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     assert_int_equal(report.step[3].method, OST_METHOD_DIRECT);
     assert_in_range(report.step[3].iterations, 1, 3);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
@@ -224,8 +222,7 @@ static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state
     options.max_iterations = 130; /* and if that is not enough, all that was tried is told */
     assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED, "Tried: metric (4");
     assert_non_null(strstr(ost_error_text(ctx), "direct (0 iterations): factoring"));
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
@@ -303,8 +300,7 @@ static void units_make_no_difference(void **state)
             assert_true(difference(&problem, u[1], u[0]) < 1e-9);
         }
     }
-    OST_FREE(u[0]);
-    OST_FREE(u[1]);
+    OST_FREE(u[0], u[1]);
     elastic_destroy(&problem);
 }
 
@@ -327,8 +323,7 @@ static void a_large_coarse_level_is_factored(void **state)
     assert_int_equal(report.levels, 2);
     assert_true(report.level_unknowns[1] > 4096);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     elastic_destroy(&problem);
 }
 

@@ -80,9 +80,7 @@ static void make_fields(const OstMesh *mesh, Fields *fields)
 
 static void free_fields(Fields *fields)
 {
-    OST_FREE(fields->displacement);
-    OST_FREE(fields->stress);
-    OST_FREE(fields->rank);
+    OST_FREE(fields->displacement, fields->stress, fields->rank);
 }
 
 /* Writes the tube with a context's ranks. */

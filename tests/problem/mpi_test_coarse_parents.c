@@ -79,8 +79,7 @@ static void curved_edges_keep_rotations_and_uniform_strains(void **state)
     MPI_Allreduce(MPI_IN_PLACE, checked, 2, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     assert_true(checked[0] > 100);
     assert_true(checked[1] > 20);
-    OST_FREE(parents);
-    OST_FREE(weights);
+    OST_FREE(parents, weights);
     destroy(&linear);
     destroy(&quadratic);
 }

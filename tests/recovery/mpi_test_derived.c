@@ -25,11 +25,7 @@ static void displace(OstResult *result, const double gradient[9])
 static void release(OstResult *result)
 {
     free(result->displacement);
-    OST_FREE(result->strain);
-    OST_FREE(result->stress);
-    OST_FREE(result->strain_energy_density);
-    OST_FREE(result->node_stress);
-    OST_FREE(result->rotation);
+    OST_FREE(result->strain, result->stress, result->strain_energy_density, result->node_stress, result->rotation);
 }
 
 static double *derive(const OstResult *result, OstOutputFieldBit field)

@@ -38,10 +38,7 @@ static void displace(OstResult *result, void (*at)(const double *, double *))
 static void release(OstResult *result)
 {
     free(result->displacement);
-    OST_FREE(result->strain);
-    OST_FREE(result->stress);
-    OST_FREE(result->strain_energy_density);
-    OST_FREE(result->node_stress);
+    OST_FREE(result->strain, result->stress, result->strain_energy_density, result->node_stress);
 }
 
 static const double slope[9] = {0.1, 0.02, -0.03, 0.05, -0.2, 0.04, 0.07, 0.01, 0.3};

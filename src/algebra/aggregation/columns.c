@@ -80,8 +80,7 @@ static OstStatus group(const OstMetricGraph *graph, OstAggregates *columns, OstL
     join(graph, set, limit);
     *largest = number_sets(n, set, set + n, columns);
 done:
-    OST_FREE(set);
-    OST_FREE(limit);
+    OST_FREE(set, limit);
     return status;
 }
 

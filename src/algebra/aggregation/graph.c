@@ -18,11 +18,7 @@ void ost_metric_graph_destroy(OstMetricGraph **graph)
 {
     if (!*graph)
         return;
-    OST_FREE((*graph)->edge_start);
-    OST_FREE((*graph)->neighbour);
-    OST_FREE((*graph)->length);
-    OST_FREE((*graph)->position);
-    OST_FREE((*graph)->metric);
+    OST_FREE((*graph)->edge_start, (*graph)->neighbour, (*graph)->length, (*graph)->position, (*graph)->metric);
     OST_FREE(*graph);
 }
 
@@ -282,9 +278,7 @@ OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregat
     measure_edges(*coarse);
     (*coarse)->jump = fine->jump;
 done:
-    OST_FREE(start);
-    OST_FREE(member);
-    OST_FREE(seen);
+    OST_FREE(start, member, seen);
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(coarse);
     return status;

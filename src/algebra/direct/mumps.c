@@ -65,8 +65,7 @@ void ost_mumps_destroy(OstMumps **mumps)
         return;
     if ((*mumps)->started)
         call(*mumps, JOB_END);
-    OST_FREE((*mumps)->counts);
-    OST_FREE((*mumps)->vector);
+    OST_FREE((*mumps)->counts, (*mumps)->vector);
     OST_FREE(*mumps);
 }
 
@@ -247,9 +246,7 @@ static void take_entries(OstMumps *mumps, OstMumpsEntries *entries)
 
 static void free_entries(OstMumps *mumps)
 {
-    OST_FREE(mumps->id.irn_loc);
-    OST_FREE(mumps->id.jcn_loc);
-    OST_FREE(mumps->id.a_loc);
+    OST_FREE(mumps->id.irn_loc, mumps->id.jcn_loc, mumps->id.a_loc);
 }
 
 /* Where each rank's unknowns are in the vectors on rank 0. */

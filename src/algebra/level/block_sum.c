@@ -28,9 +28,7 @@ void ost_block_sum_destroy(OstBlockSum **sum)
         return;
     ost_index_destroy(&(*sum)->ghost);
     ost_index_destroy(&(*sum)->entry);
-    for (OstLocal c = 0; c < (*sum)->chunks; c++)
-        OST_FREE((*sum)->chunk[c]);
-    OST_FREE((*sum)->chunk);
+    OST_FREE_EACH((*sum)->chunks, (*sum)->chunk);
     OST_FREE(*sum);
 }
 
@@ -245,10 +243,7 @@ OstStatus ost_block_sum_finish(OstBlockSum *sum, OstDoubleMatrix **matrix)
         goto done;
     OST_TRY_DONE(ost_halo_create(ctx, sum->owned, sum->first, list.columns - sum->owned, list.ghost, &(*matrix)->halo));
 done:
-    OST_FREE(list.start);
-    OST_FREE(list.block);
-    OST_FREE(list.renumber);
-    OST_FREE(list.ghost);
+    OST_FREE(list.start, list.block, list.renumber, list.ghost);
     if (status != OST_SUCCESS)
         ost_double_matrix_destroy(matrix);
     return status;

@@ -12,9 +12,7 @@ void ost_fetched_rows_destroy(OstFetchedRows **rows)
 {
     if (!*rows)
         return;
-    OST_FREE((*rows)->start);
-    OST_FREE((*rows)->column);
-    OST_FREE((*rows)->value);
+    OST_FREE((*rows)->start, (*rows)->column, (*rows)->value);
     OST_FREE(*rows);
 }
 

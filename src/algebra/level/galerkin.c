@@ -31,11 +31,7 @@ static void destroy_product(Product *product)
 {
     ost_block_sum_destroy(&product->sum);
     ost_fetched_rows_destroy(&product->far);
-    OST_FREE(product->far_column);
-    OST_FREE(product->place);
-    OST_FREE(product->column);
-    OST_FREE(product->p_column);
-    OST_FREE(product->rows);
+    OST_FREE(product->far_column, product->place, product->column, product->p_column, product->rows);
 }
 
 /* The prolongator's columns appear in the sum first, in their order. `number`: their global numbers. */

@@ -10,13 +10,8 @@ void ost_level_matrix_destroy(OstLevelMatrix **matrix)
 {
     if (!*matrix)
         return;
-    OST_FREE((*matrix)->row_start);
-    OST_FREE((*matrix)->own_end);
-    OST_FREE((*matrix)->column);
-    OST_FREE((*matrix)->diagonal);
-    OST_FREE((*matrix)->value);
-    OST_FREE((*matrix)->diagonal_rest);
-    OST_FREE((*matrix)->value_rest);
+    OST_FREE((*matrix)->row_start, (*matrix)->own_end, (*matrix)->column, (*matrix)->diagonal, (*matrix)->value,
+             (*matrix)->diagonal_rest, (*matrix)->value_rest);
     ost_exchange_destroy(&(*matrix)->exchange);
     OST_FREE(*matrix);
 }

@@ -18,10 +18,7 @@ void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
 {
     if (!*blocks)
         return;
-    OST_FREE((*blocks)->node_start);
-    OST_FREE((*blocks)->node);
-    OST_FREE((*blocks)->value_start);
-    OST_FREE((*blocks)->value);
+    OST_FREE((*blocks)->node_start, (*blocks)->node, (*blocks)->value_start, (*blocks)->value);
     OST_FREE(*blocks);
 }
 
@@ -162,8 +159,7 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, int soften, OstSmooth
             value[k] = (float)inverse[k];
     }
 done:
-    OST_FREE(of_node);
-    OST_FREE(dense);
+    OST_FREE(of_node, dense);
     return status;
 }
 

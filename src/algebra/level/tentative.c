@@ -15,10 +15,7 @@ void ost_tentative_destroy(OstTentative **tentative)
 {
     if (!*tentative)
         return;
-    OST_FREE((*tentative)->coarse);
-    OST_FREE((*tentative)->block);
-    OST_FREE((*tentative)->rest);
-    OST_FREE((*tentative)->modes);
+    OST_FREE((*tentative)->coarse, (*tentative)->block, (*tentative)->rest, (*tentative)->modes);
     OST_FREE(*tentative);
 }
 
@@ -101,9 +98,7 @@ static OstStatus make_coarse_nodes(const OstDoubleMatrix *matrix, const OstAggre
     for (OstLocal a = 0; a < aggregates->count; a++)
         make_coarse_node(matrix, modes, a, start[a + 1] - start[a], member + start[a], basis, tentative);
 done:
-    OST_FREE(start);
-    OST_FREE(member);
-    OST_FREE(basis);
+    OST_FREE(start, member, basis);
     return status;
 }
 

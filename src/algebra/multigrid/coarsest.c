@@ -21,8 +21,7 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
 {
     if (!*coarsest)
         return;
-    OST_FREE((*coarsest)->count);
-    OST_FREE((*coarsest)->factor);
+    OST_FREE((*coarsest)->count, (*coarsest)->factor);
     ost_mumps_destroy(&(*coarsest)->sparse);
     OST_FREE(*coarsest);
 }

@@ -24,11 +24,7 @@ typedef struct Smoothing {
 
 static void destroy_smoothing(Smoothing *s)
 {
-    OST_FREE(s->column);
-    OST_FREE(s->block_start);
-    OST_FREE(s->block_column);
-    OST_FREE(s->place);
-    OST_FREE(s->sum);
+    OST_FREE(s->column, s->block_start, s->block_column, s->place, s->sum);
 }
 
 /* Lists the coarse nodes of the fine ghosts, each once, and numbers the coarse column of every fine node. */

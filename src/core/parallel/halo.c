@@ -30,12 +30,8 @@ void ost_halo_destroy(OstHalo **halo)
 {
     if (!*halo)
         return;
-    OST_FREE((*halo)->neighbour);
-    OST_FREE((*halo)->send_start);
-    OST_FREE((*halo)->send_index);
-    OST_FREE((*halo)->receive_start);
-    OST_FREE((*halo)->buffer);
-    OST_FREE((*halo)->request);
+    OST_FREE((*halo)->neighbour, (*halo)->send_start, (*halo)->send_index, (*halo)->receive_start, (*halo)->buffer,
+             (*halo)->request);
     OST_FREE(*halo);
 }
 
@@ -133,9 +129,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
     OST_TRY_DONE(ost_agree(ctx, reserve_buffer(made)));
 done:
-    OST_FREE(end);
-    OST_FREE(send_count);
-    OST_FREE(receive_count);
+    OST_FREE(end, send_count, receive_count);
     if (status != OST_SUCCESS)
         ost_halo_destroy(&made);
     *halo = made;

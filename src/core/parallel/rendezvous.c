@@ -90,8 +90,7 @@ static OstStatus ask(const Meeting *meeting, const char *what, OstLocal count, c
     OST_TRY_DONE(ost_route_answer(route, meeting->size, answer, value));
 done:
     ost_route_destroy(&route);
-    OST_FREE(asked);
-    OST_FREE(answer);
+    OST_FREE(asked, answer);
     return status;
 }
 
@@ -105,9 +104,6 @@ OstStatus ost_rendezvous(OstContext *ctx, const char *what, size_t size, const O
     if (status == OST_SUCCESS)
         status = ask(&meeting, what, count, key, value);
     ost_index_destroy(&meeting.index);
-    OST_FREE(meeting.best);
-    OST_FREE(meeting.key);
-    OST_FREE(meeting.order);
-    OST_FREE(meeting.value);
+    OST_FREE(meeting.best, meeting.key, meeting.order, meeting.value);
     return status;
 }

@@ -11,11 +11,8 @@ void ost_route_destroy(OstRoute **route)
 {
     if (!*route)
         return;
-    OST_FREE((*route)->item);
-    OST_FREE((*route)->send_count);
-    OST_FREE((*route)->send_start);
-    OST_FREE((*route)->receive_count);
-    OST_FREE((*route)->receive_start);
+    OST_FREE((*route)->item, (*route)->send_count, (*route)->send_start, (*route)->receive_count,
+             (*route)->receive_start);
     OST_FREE(*route);
 }
 

@@ -240,8 +240,6 @@ OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets)
                  cells->path, shared);
     OST_TRY_DONE(name_regions(cells, &all, tet_count, cells->chunk->tet_region));
 done:
-    OST_FREE(all.list);
-    OST_FREE(all.place);
-    OST_FREE(several);
+    OST_FREE(all.list, all.place, several);
     return status;
 }

@@ -85,10 +85,7 @@ static OstStatus first_labels(const Forest *forest, OstGlobal *first)
     OST_TRY_DONE(ost_route_answer(route, sizeof *first, answer, first));
 done:
     ost_route_destroy(&route);
-    OST_FREE(family);
-    OST_FREE(arrived);
-    OST_FREE(answer);
-    OST_FREE(to);
+    OST_FREE(family, arrived, answer, to);
     return status;
 }
 
@@ -152,9 +149,7 @@ static OstStatus fetch_numbers(const Forest *forest, OstGlobal *number)
     OST_TRY_DONE(
         ost_rendezvous(ctx, "vertex", sizeof *value, &(OstKeyed){held, known, NULL, value}, count, key, number + old));
 done:
-    OST_FREE(key);
-    OST_FREE(known);
-    OST_FREE(value);
+    OST_FREE(key, known, value);
     return status;
 }
 

@@ -29,7 +29,7 @@ static OstStatus file_edges_of(Forest *forest, Item *item)
 
 static OstStatus add_item(Forest *forest, Item *item)
 {
-    OST_TRY(FOREST_ROOM(forest, item));
+    OST_TRY(FOREST_ROOM(forest, forest->item_count, &forest->item));
     OST_TRY(file_edges_of(forest, item));
     forest->item[forest->item_count++] = *item;
     return OST_SUCCESS;

@@ -13,8 +13,7 @@ void ost_components_destroy(OstComponents **components)
 {
     if (!*components)
         return;
-    OST_FREE((*components)->of_tet);
-    OST_FREE((*components)->component);
+    OST_FREE((*components)->of_tet, (*components)->component);
     OST_FREE(*components);
 }
 
@@ -91,8 +90,7 @@ static OstStatus reduce(OstContext *ctx, OstComponents *components)
         }
     }
 done:
-    OST_FREE(tets);
-    OST_FREE(box);
+    OST_FREE(tets, box);
     return status;
 }
 
@@ -134,9 +132,7 @@ static OstStatus order(const OstMesh *mesh, OstComponents *components)
     components->component = ordered;
     ordered = NULL;
 done:
-    OST_FREE(rank);
-    OST_FREE(ordered);
-    OST_FREE(place);
+    OST_FREE(rank, ordered, place);
     return status;
 }
 

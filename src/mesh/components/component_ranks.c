@@ -100,8 +100,7 @@ static OstStatus send_ghosts(const OstMesh *mesh, const OstLocal *set, SharedTet
     OST_TRY_DONE(ost_route_carry(route, sizeof *ghost, ghost, (void **)arrived));
     *count = route->receives;
 done:
-    OST_FREE(to);
-    OST_FREE(ghost);
+    OST_FREE(to, ghost);
     ost_route_destroy(&route);
     return status;
 }
@@ -214,8 +213,6 @@ OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, Ost
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         set[t] = merged[set[t]];
 done:
-    OST_FREE(arrived);
-    OST_FREE(merged);
-    OST_FREE(links.link);
+    OST_FREE(arrived, merged, links.link);
     return status;
 }

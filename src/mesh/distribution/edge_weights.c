@@ -68,10 +68,7 @@ OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, c
                 sums[SUMS * i + c] / fmax(sums[SUMS * i + 6], 1.0); /* ost_check_mesh: without tets */
     }
 done:
-    OST_FREE(position);
-    OST_FREE(centroid);
-    OST_FREE(of_tet);
-    OST_FREE(sums);
+    OST_FREE(position, centroid, of_tet, sums);
     return status;
 }
 

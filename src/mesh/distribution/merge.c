@@ -112,9 +112,7 @@ static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal
         arrived[i] = merge->number[arrived[i] - merge->points.first];
     OST_TRY_DONE(ost_route_answer(route, sizeof *number, arrived, number));
 done:
-    OST_FREE(end);
-    OST_FREE(arrived);
-    OST_FREE(to);
+    OST_FREE(end, arrived, to);
     ost_route_destroy(&route);
     return status;
 }
@@ -152,8 +150,7 @@ static OstStatus number_merged(Merge *merge, double tolerance)
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_import(merge->slab->halo, sizeof *merge->number, merge->number)));
 done:
-    OST_FREE(asked);
-    OST_FREE(number);
+    OST_FREE(asked, number);
     return status;
 }
 
@@ -219,8 +216,7 @@ OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merg
     Merge merge = {.chunk = chunk, .points = {chunk->ctx, chunk->first_node, chunk->node_count, chunk->coordinates}};
     if (status == OST_SUCCESS)
         status = merge_vertices(&merge, tolerance, merged);
-    OST_FREE(merge.lowest);
-    OST_FREE(merge.number);
+    OST_FREE(merge.lowest, merge.number);
     ost_slab_destroy(&merge.slab);
     ost_ledger_leave(chunk->ctx);
     return status;

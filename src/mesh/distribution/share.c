@@ -159,8 +159,7 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
         status = create_empty(ctx, &outline, text, kind, chunk);
     status = ost_agree(ctx, status);
 done:
-    OST_FREE(text);
-    OST_FREE(kind);
+    OST_FREE(text, kind);
     if (status != OST_SUCCESS)
         ost_chunk_destroy(chunk);
     return status;

@@ -45,12 +45,7 @@ typedef struct Welding {
 
 static void destroy_welding(Welding *w)
 {
-    OST_FREE(w->sum);
-    OST_FREE(w->softer);
-    OST_FREE(w->set);
-    OST_FREE(w->label);
-    OST_FREE(w->piece);
-    OST_FREE(w->place);
+    OST_FREE(w->sum, w->softer, w->set, w->label, w->piece, w->place);
 }
 
 static OstStatus create_welding(const OstMeshChunk *chunk, const Slab *slab, Welding *w)
@@ -273,9 +268,7 @@ static OstStatus label_nodes(Welding *w)
         OST_TRY_DONE(ost_sum_numbers(ctx, 1, &changed));
     }
 done:
-    OST_FREE(node);
-    OST_FREE(key);
-    OST_FREE(label);
+    OST_FREE(node, key, label);
     return status;
 }
 
@@ -363,9 +356,7 @@ static OstStatus ask_for_parts(const Welding *w, OstLocal *decided)
     OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, decided));
 done:
     ost_route_destroy(&route);
-    OST_FREE(to);
-    OST_FREE(met);
-    OST_FREE(answer);
+    OST_FREE(to, met, answer);
     return status;
 }
 

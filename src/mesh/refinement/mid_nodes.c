@@ -13,9 +13,7 @@
 void ost_mid_nodes_clear(MidNodes *mid)
 {
     ost_edge_table_clear(&mid->edges);
-    OST_FREE(mid->number);
-    OST_FREE(mid->label);
-    OST_FREE(mid->coordinates);
+    OST_FREE(mid->number, mid->label, mid->coordinates);
 }
 
 int ost_mid_nodes_owns(const MidNodes *mid, OstLocal node)
@@ -106,8 +104,7 @@ static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *end
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, number));
 done:
-    OST_FREE(asked);
-    OST_FREE(answer);
+    OST_FREE(asked, answer);
     ost_route_destroy(&route);
     return status;
 }
@@ -126,8 +123,7 @@ static OstStatus number_ghosts(MidNodes *mid)
     list_questions(mid, ends, to);
     status = ask_owners(mid, count, ends, to, mid->number + mesh->node_count + owned);
 done:
-    OST_FREE(ends);
-    OST_FREE(to);
+    OST_FREE(ends, to);
     return status;
 }
 

@@ -209,9 +209,7 @@ void ost_scale_destroy(OstScale **scale)
 {
     if (!*scale)
         return;
-    OST_FREE((*scale)->path);
-    OST_FREE((*scale)->title);
-    OST_FREE((*scale)->run);
+    OST_FREE((*scale)->path, (*scale)->title, (*scale)->run);
     OST_FREE(*scale);
 }
 
