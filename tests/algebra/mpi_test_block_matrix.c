@@ -35,7 +35,6 @@ static double *product(const ElasticProblem *problem)
 
 static void the_product_does_not_depend_on_the_ranks(void **state)
 {
-    (void)state;
     OstContext *alone = NULL;
     ElasticProblem shared;
     ElasticProblem whole;
@@ -55,7 +54,6 @@ static void the_product_does_not_depend_on_the_ranks(void **state)
 
 static void rigid_motions_of_a_free_body_take_no_force(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
     const OstBlockMatrix *matrix = problem.matrix;
@@ -76,7 +74,6 @@ static void rigid_motions_of_a_free_body_take_no_force(void **state)
 
 static void the_six_modes_are_independent(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double gram[36];
     assert_success(elastic_create(ctx, &afloat, &problem));
@@ -97,7 +94,6 @@ static void the_six_modes_are_independent(void **state)
 /* Half of the blocks, the same product, compensated residual and entries; unfolded, every bit as before. */
 static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
 {
-    (void)state;
     ElasticProblem problem, folded;
     assert_success(elastic_create(ctx, &held, &problem));
     assert_success(elastic_create(ctx, &held, &folded));
@@ -130,7 +126,6 @@ static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
 /* The diagonal of a row without its transpose. */
 static void a_matrix_that_is_not_symmetric_stays_as_it_is(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &held, &problem));
     OstBlockMatrix *matrix = problem.matrix;

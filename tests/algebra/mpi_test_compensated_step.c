@@ -31,7 +31,6 @@ static double largest_residual(const ElasticProblem *problem, const double *u, d
 /* M^-1 A has two eigenvalues, so that conjugate gradients take two steps. */
 static void a_mode_that_factors_miss_takes_one_step_more(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *u = NULL, *residual = NULL, *correction = NULL;
@@ -56,7 +55,6 @@ static void a_mode_that_factors_miss_takes_one_step_more(void **state)
 /* p·Ap of one stiff pair that moves together, (a, -a; -a, a + d): in double precision alone 1 % of it is rounding. */
 static void what_rounding_hides_of_an_energy_is_found(void **state)
 {
-    (void)state;
     const double a = 1e8, d = 1e-6, p[2] = {1.0 / 3.0, (1.0 + 1e-9) / 3.0};
     const double stiff = a + d;
     ElasticProblem problem = diagonal_bar(diagonal);
@@ -90,7 +88,6 @@ static void what_rounding_hides_of_an_energy_is_found(void **state)
 /* A step without a gain in energy is left as it was. */
 static void a_direction_without_energy_is_left_alone(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *zero = NULL, *correction = NULL;

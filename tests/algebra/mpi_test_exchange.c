@@ -19,7 +19,6 @@ static double *numbers(const OstHalo *halo, int width)
 /* ML's exchange does what our own does, in both directions. */
 static void it_moves_the_same_numbers_as_the_halo(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &block, &problem));
     OstHalo *halo = problem.matrix->halo;

@@ -118,7 +118,6 @@ static double global_dot(size_t n, const double *a, const double *b)
 
 static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
 {
-    (void)state;
     Coarse c;
     make_coarse(&soft_and_stiff, 12.0, NULL, &c);
     const size_t n = 6 * (size_t)c.coarse->rows;
@@ -139,7 +138,6 @@ static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
 
 static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **state)
 {
-    (void)state;
     Coarse c;
     make_coarse(&soft_and_stiff, 12.0, NULL, &c);
     const OstDoubleMatrix *a = c.coarse;
@@ -168,7 +166,6 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
  * reproduced, and the coarse unknown nobody uses gets a harmless equation. */
 static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
 {
-    (void)state;
     const ElasticBlock line = {.bricks = {2, 1, 7}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     Coarse c;
     OstLocal of_node[48];
@@ -210,7 +207,6 @@ static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
 /* Row i of this rank goes round: its length and its columns tell where it came from. */
 static void rows_travel_to_ghosts_and_back(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &soft_and_stiff, &problem));
     OstHalo *halo = problem.matrix->halo;

@@ -34,7 +34,6 @@ static double *noise(const OstLevelMatrix *matrix)
 
 static void half_a_matrix_multiplies_as_the_whole_does(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &block, &problem));
     OstLevelMatrix *level = level_matrix(problem.matrix);
@@ -76,7 +75,6 @@ static void check_step(const OstLevelMatrix *level, const OstSmootherBlocks *blo
 /* Where blocks are larger than the matrix' couplings reach, they are the matrix itself. */
 static void one_block_of_any_size_inverts_its_nodes(void **state)
 {
-    (void)state;
     const int bricks[5][3] = {{0, 0, 1}, {1, 1, 1}, {2, 1, 1}, {3, 3, 1}, {5, 3, 1}}; /* 1, 4, 6, 16, 24 nodes */
     for (int k = 0; k < 5; k++) {
         OstContext *alone = NULL;
@@ -116,7 +114,6 @@ static void divide(const void *data, const double *r, double *z)
 /* A chain of springs: eigenvalues 2 - 2 cos(k pi / (n + 1)). Conjugate gradients find n of them in n steps. */
 static void the_largest_eigenvalue_of_a_chain_is_found(void **state)
 {
-    (void)state;
     enum { NODES = 8 };
     const int rank = ost_rank(ctx), size = ost_size(ctx);
     const OstLocal low = NODES * rank / size, high = NODES * (rank + 1) / size, rows = high - low;
@@ -216,7 +213,6 @@ static void multiply_plainly(const OstLevelMatrix *matrix, const double *x, doub
 
 static void blocks_of_six_multiply_as_plain_loops_do(void **state)
 {
-    (void)state;
     OstDoubleMatrix *band = create_band();
     OstLevelMatrix *level = NULL;
     assert_success(ost_level_matrix_create(band, &level));

@@ -102,7 +102,6 @@ static void check_galerkin(const Setup *setup)
 
 static void coarse_matrices_are_the_galerkin_products(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     check_galerkin(&s);
@@ -113,7 +112,6 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
  * wall of one aggregate do not. A number that is given is kept. */
 static void aggregates_of_a_coarse_level_grow_with_its_rows(void **state)
 {
-    (void)state;
     const ElasticBlock solid = {.bricks = {15, 15, 15}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     const ElasticBlock wall = {.bricks = {40, 40, 1}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     for (int k = 0; k < 2 && ost_size(ctx) == 1; k++) {
@@ -129,7 +127,6 @@ static void aggregates_of_a_coarse_level_grow_with_its_rows(void **state)
 
 static void few_nodes_go_to_fewer_ranks(void **state)
 {
-    (void)state;
     const OstGlobal enough = OST_NODES_OF_RANK;
     assert_int_equal(ost_gathered_stride(100 * enough, 64, 1, 0), 1);
     assert_int_equal(ost_gathered_stride(40 * enough, 64, 1, 0), 1); /* not yet half as many */
@@ -144,7 +141,6 @@ static void few_nodes_go_to_fewer_ranks(void **state)
 /* About 60 nodes below 2500, and 8 below them. */
 static void gathered_levels_are_galerkin_products_too(void **state)
 {
-    (void)state;
     const ElasticBlock block = {.bricks = {12, 12, 14}, .size = {1, 1, 1}, .modulus = 3e5, .poisson = 0.3, .held = 1};
     const int stride = ost_size(ctx) == 4 ? 2 : 1;
     Setup s;
@@ -184,7 +180,6 @@ static double fit(const OstProlongator *p, size_t coarse_owned, const double *m,
 
 static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&free_block, &s);
     for (size_t mode = 0; mode < 6; mode++) {
@@ -207,7 +202,6 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
 
 static void the_smoother_is_symmetric_and_positive(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     for (int l = 0; l < 2; l++) {
@@ -227,7 +221,6 @@ static void the_smoother_is_symmetric_and_positive(void **state)
 
 static void the_cycle_is_symmetric_and_positive(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     OstCycle *cycle = NULL;
@@ -252,7 +245,6 @@ static void the_cycle_is_symmetric_and_positive(void **state)
 
 static void the_coarsest_level_is_solved_exactly(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     const OstLevelMatrix *a = s.levels.matrix[s.levels.count - 1];

@@ -11,7 +11,6 @@ static const ElasticBlock uneven = {
 
 static void diagonal_blocks_become_identities(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -43,7 +42,6 @@ static void multiply_scaled(const OstScaling *scaling, const OstBlockMatrix *mat
 /* A' u' = S (A (S^T u')), in which the ghosts' S must be the owners'. */
 static void the_scaled_blocks_are_those_of_the_factors(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -70,7 +68,6 @@ static void the_scaled_blocks_are_those_of_the_factors(void **state)
 
 static void scaling_there_and_back_changes_nothing(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -100,7 +97,6 @@ static void scaling_there_and_back_changes_nothing(void **state)
 
 static void a_block_that_is_not_definite_is_refused_by_its_global_row(void **state)
 {
-    (void)state;
     const double bad[2] = {-1.0, NAN};
     for (int k = 0; k < 2; k++) {
         ElasticProblem problem;

@@ -90,7 +90,6 @@ static double *reference(const ElasticProblem *problem)
 
 static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -118,7 +117,6 @@ static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
 /* With the smoother given, only a factorisation helps; the solver gets there. */
 static void given_parameters_are_left_alone_up_to_the_top(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -140,7 +138,6 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
 
 static void a_chosen_method_is_never_changed(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -160,7 +157,6 @@ static void a_chosen_method_is_never_changed(void **state)
 
 static void the_next_strategy_starts_from_what_was_reached(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -185,7 +181,6 @@ static void the_next_strategy_starts_from_what_was_reached(void **state)
 
 static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -201,7 +196,6 @@ static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void *
 /* If memory does not allow factors, the fastest strategy goes on, without patience. */
 static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -228,7 +222,6 @@ static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state
 
 static void no_other_strategy_is_tried_against_rounding(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -252,7 +245,6 @@ static void no_other_strategy_is_tried_against_rounding(void **state)
 
 static void an_indefinite_matrix_never_passes(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -273,7 +265,6 @@ static void an_indefinite_matrix_never_passes(void **state)
 /* Powers of two, so that nothing is rounded otherwise: all the same but for the exponent. */
 static void units_make_no_difference(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &hard, &problem));
     const OstBlockMatrix *matrix = problem.matrix;
@@ -307,7 +298,6 @@ static void units_make_no_difference(void **state)
 /* A coarse matrix beyond what every rank would factor for itself is MUMPS's. */
 static void a_large_coarse_level_is_factored(void **state)
 {
-    (void)state;
     ElasticBlock large = hard;
     ElasticProblem problem;
     OstSolveReport report;

@@ -41,7 +41,6 @@ static void check_boundary(const OstMeshChunk *chunk, int named)
 
 static void stored_files_are_read_as_gmsh_reads_them(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];

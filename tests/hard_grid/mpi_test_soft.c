@@ -8,7 +8,6 @@
  * digit, and the second 418. */
 static void soft_inclusions_are_solved_by_iterations(void **state)
 {
-    (void)state;
     const HardPoint soft = {
         .shape = hard_find_shape("soft"), .order = 2, .poisson = HARD_INCOMPRESSIBLE, .iterated = 1};
     for (int ratio = 0; ratio < 2; ratio++) {

@@ -49,7 +49,6 @@ static void make_bodies(Body *linear, Body *quadratic)
 /* The weighted sum of the parents' places is the node's own, so every field of uniform slope passes as it is. */
 static void curved_edges_keep_rotations_and_uniform_strains(void **state)
 {
-    (void)state;
     Body linear = {0}, quadratic = {0};
     OstLocal *parents = NULL;
     double *weights = NULL;

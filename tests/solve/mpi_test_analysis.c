@@ -63,7 +63,6 @@ static OstSolverOptions options_of(OstMethod method)
 
 static void two_loads_on_one_solver_are_two_solves(void **state)
 {
-    (void)state;
     const OstMethod methods[] = {OST_METHOD_METRIC, OST_METHOD_DIRECT};
     Made made = make_body_of_wood();
     const size_t size = 3 * (size_t)made.mesh->owned_nodes;
@@ -105,7 +104,6 @@ static void two_loads_on_one_solver_are_two_solves(void **state)
 /* A load that is refused leaves stiffness and solver to the next. */
 static void a_refused_load_is_followed_by_another(void **state)
 {
-    (void)state;
     Made made = make_body_of_wood();
     const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0), *beyond = make_force(made.mesh, 50, 1e80);
@@ -131,7 +129,6 @@ static void a_refused_load_is_followed_by_another(void **state)
 
 static void a_dry_run_refuses_what_a_solve_refuses(void **state)
 {
-    (void)state;
     Made made = make_body_of_wood();
     const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0);

@@ -64,7 +64,6 @@ static void bend(double angle, OstCase **c, OstScene **scene, OstResult **result
 
 static void a_following_moment_bends_it_into_a_circle(void **state)
 {
-    (void)state;
     static const double pi = 3.14159265358979323846;
     OstCase *c = NULL;
     OstScene *scene = NULL;

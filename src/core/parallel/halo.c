@@ -180,11 +180,6 @@ done:
 }
 
 /* Fits an int: reserve_buffer has checked it. */
-static int message_length(OstLocal entries, size_t size)
-{
-    return (int)((size_t)entries * size);
-}
-
 int ost_halo_messages(const OstHalo *halo, const OstLocal *start)
 {
     int messages = 0;
@@ -202,34 +197,37 @@ static OstStatus check_entry(const OstHalo *halo, size_t size)
                      (int)OST_LARGEST_ENTRY, size);
 }
 
+/* Posts the receives, or the sends, of all neighbours: for k the entries from start[k] on, of `size` bytes each. */
+static OstStatus post(OstHalo *halo, int sends, size_t size, const OstLocal *start, char *entries, int *requests)
+{
+    MPI_Comm comm = ost_comm(halo->ctx);
+    for (int k = 0; k < halo->neighbour_count; k++) {
+        const int to = halo->neighbour[k], length = (int)((size_t)(start[k + 1] - start[k]) * size);
+        char *bytes = entries + (size_t)start[k] * size;
+        MPI_Request *request = &halo->request[*requests];
+        if (length == 0)
+            continue;
+        if (sends)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(bytes, length, MPI_BYTE, to, HALO_TAG, comm, request)));
+        else
+            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(bytes, length, MPI_BYTE, to, HALO_TAG, comm, request)));
+        ++*requests;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
 {
     const int n = halo->neighbour_count;
     if (n == 0)
         return OST_SUCCESS;
     OST_TRY(check_entry(halo, size));
-    char *bytes = values;
-    char *outgoing = halo->buffer;
-    char *ghosts = bytes + (size_t)halo->owned * size;
-    MPI_Comm comm = ost_comm(halo->ctx);
+    char *bytes = values, *outgoing = halo->buffer;
     int requests = 0;
-    int length = 0;
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->receive_start[k];
-        length = message_length(halo->receive_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(ghosts + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
-                                                 HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 0, size, halo->receive_start, bytes + (size_t)halo->owned * size, &requests));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)
         memcpy(outgoing + (size_t)i * size, bytes + (size_t)halo->send_index[i] * size, size);
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->send_start[k];
-        length = message_length(halo->send_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(outgoing + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
-                                                 HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 1, size, halo->send_start, outgoing, &requests));
     ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->send_start), (double)size * halo->send_start[n]);
     return OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
 }
@@ -241,25 +239,11 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
         return OST_SUCCESS;
     const size_t size = (size_t)width * sizeof(double);
     OST_TRY(check_entry(halo, size));
-    double *incoming = halo->buffer;
-    double *ghosts = values + (size_t)halo->owned * (size_t)width;
-    MPI_Comm comm = ost_comm(halo->ctx);
+    const double *incoming = halo->buffer;
     int requests = 0;
-    int length = 0;
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->send_start[k];
-        length = message_length(halo->send_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(incoming + (size_t)first * (size_t)width, length, MPI_BYTE,
-                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
-    }
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->receive_start[k];
-        length = message_length(halo->receive_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(ghosts + (size_t)first * (size_t)width, length, MPI_BYTE,
-                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 0, size, halo->send_start, halo->buffer, &requests));
+    OST_TRY(
+        post(halo, 1, size, halo->receive_start, (char *)(values + (size_t)halo->owned * (size_t)width), &requests));
     ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->receive_start), (double)size * halo->ghosts);
     OST_TRY(OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)
