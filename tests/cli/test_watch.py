@@ -1,5 +1,4 @@
 """What a case watches: printed by solve, in its JSON, the same on two ranks; selections that are not there refused."""
-import json
 import os
 import tempfile
 
