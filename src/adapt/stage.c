@@ -74,8 +74,7 @@ static OstStatus learn(OstStage *stage)
 OstStatus ost_stage_solve(OstStage *stage)
 {
     OstStatus status = ost_scene_problem(stage->scene, &stage->problem);
-    if (status == OST_SUCCESS)
-        status = ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis);
+    OST_THEN(ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis));
     if (status == OST_SUCCESS) {
         stage->analysis->start = stage->start;
         stage->analysis->leaves_reactions = 1;
@@ -145,8 +144,7 @@ static OstStatus carry_shares(const OstStage *stage, OstStage *next)
         pairs[2 * t] = share_of(stage, (OstLocal)t);
         pairs[2 * t + 1] = stage->fall[t];
     }
-    if (status == OST_SUCCESS)
-        status = ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts);
+    OST_THEN(ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts));
     OST_FREE(pairs);
     return status;
 }
@@ -190,11 +188,9 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
     ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
     OstStatus status = cut(stage, marking, next->bisection, &chunk);
     ost_ledger_leave(ctx);
-    if (status == OST_SUCCESS)
-        status = ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene);
+    OST_THEN(ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene));
     ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
-    if (status == OST_SUCCESS)
-        status = carry(stage, next);
+    OST_THEN(carry(stage, next));
     ost_ledger_leave(ctx);
     return status;
 }

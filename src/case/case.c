@@ -167,75 +167,53 @@ static OstStatus check_load_cases(const OstYaml *yaml, const OstYamlNode *cases,
     return OST_SUCCESS;
 }
 
-/* `number`: of the load case (from 0), or OST_EVERY_LOAD_CASE. */
-static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
+/* The sections, in the order in which they are read. */
+enum {
+    TITLE,
+    MESH,
+    ELEMENT,
+    MATERIALS,
+    CONSTRAINTS,
+    SPRINGS,
+    LOADS,
+    WATCH,
+    ACCURACY,
+    SOLVER,
+    OUTPUT,
+    PATH,
+    LARGE_ROTATION,
+    FORMULATION,
+    VERIFY,
+    SWEEP,
+    CASES,
+    SECTIONS
+};
+static const struct {
+    const char *name;
+    OstStatus (*read)(const OstYaml *, const OstYamlNode *, OstCase *);
+} sections[SECTIONS] = {
+    [TITLE] = {"title", NULL},
+    [MESH] = {"mesh", ost_read_mesh},
+    [ELEMENT] = {"element", ost_read_element},
+    [MATERIALS] = {"materials", ost_read_materials},
+    [CONSTRAINTS] = {"constraints", ost_read_constraints},
+    [SPRINGS] = {"springs", ost_read_springs},
+    [LOADS] = {"loads", ost_read_loads},
+    [WATCH] = {"watch", ost_read_watches},
+    [ACCURACY] = {"accuracy", ost_read_accuracy},
+    [SOLVER] = {"solver", ost_read_solver},
+    [OUTPUT] = {"output", ost_read_output},
+    [PATH] = {"path", ost_read_load_path},
+    [LARGE_ROTATION] = {"large_rotation", ost_read_large_rotation},
+    [FORMULATION] = {"formulation", ost_read_formulation},
+    [VERIFY] = {"verify", ost_read_verify},
+    [SWEEP] = {"sweep", ost_read_sweep},
+    [CASES] = {"cases", NULL},
+};
+
+/* What sections say of each other. */
+static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
 {
-    enum {
-        TITLE,
-        MESH,
-        ELEMENT,
-        MATERIALS,
-        CONSTRAINTS,
-        SPRINGS,
-        LOADS,
-        WATCH,
-        ACCURACY,
-        SOLVER,
-        OUTPUT,
-        PATH,
-        LARGE_ROTATION,
-        FORMULATION,
-        VERIFY,
-        SWEEP,
-        CASES,
-        SECTIONS
-    };
-    OstYamlKey keys[SECTIONS] = {
-        [TITLE] = {.name = "title"},
-        [MESH] = {.name = "mesh", .needed = 1},
-        [ELEMENT] = {.name = "element"},
-        [MATERIALS] = {.name = "materials"},
-        [CONSTRAINTS] = {.name = "constraints"},
-        [SPRINGS] = {.name = "springs"},
-        [LOADS] = {.name = "loads"},
-        [ACCURACY] = {.name = "accuracy"},
-        [SOLVER] = {.name = "solver"},
-        [OUTPUT] = {.name = "output"},
-        [WATCH] = {.name = "watch"},
-        [PATH] = {.name = "path"},
-        [LARGE_ROTATION] = {.name = "large_rotation"},
-        [FORMULATION] = {.name = "formulation"},
-        [VERIFY] = {.name = "verify"},
-        [SWEEP] = {.name = "sweep"},
-        [CASES] = {.name = "cases"},
-    };
-    OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,
-        [ELEMENT] = ost_read_element,
-        [MATERIALS] = ost_read_materials,
-        [SPRINGS] = ost_read_springs,
-        [LOADS] = ost_read_loads,
-        [CONSTRAINTS] = ost_read_constraints,
-        [ACCURACY] = ost_read_accuracy,
-        [SOLVER] = ost_read_solver,
-        [OUTPUT] = ost_read_output,
-        [WATCH] = ost_read_watches,
-        [PATH] = ost_read_load_path,
-        [LARGE_ROTATION] = ost_read_large_rotation,
-        [FORMULATION] = ost_read_formulation,
-        [VERIFY] = ost_read_verify,
-        [SWEEP] = ost_read_sweep,
-    };
-    OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
-    if (keys[TITLE].value)
-        OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
-    else
-        OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
-    for (int s = MESH; s < CASES; s++)
-        if (keys[s].value)
-            OST_TRY(read[s](yaml, keys[s].value, c));
-    if (keys[CASES].value)
-        OST_TRY(ost_read_load_cases(yaml, keys[CASES].value, number, c));
     if (c->free_body && c->spring_count > 0)
         return ost_yaml_raise(yaml, keys[SPRINGS].value,
                               "nothing holds a free body, and springs would; leave out these, or free_body");
@@ -253,6 +231,25 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
     OST_TRY(check_links(yaml, c));
     OST_TRY(check_distributing(yaml, c));
     return check_density(yaml, c);
+}
+
+/* `number`: of the load case (from 0), or OST_EVERY_LOAD_CASE. */
+static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
+{
+    OstYamlKey keys[SECTIONS];
+    for (int s = 0; s < SECTIONS; s++)
+        keys[s] = (OstYamlKey){.name = sections[s].name, .needed = s == MESH};
+    OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
+    if (keys[TITLE].value)
+        OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
+    else
+        OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
+    for (int s = 0; s < SECTIONS; s++)
+        if (keys[s].value && sections[s].read)
+            OST_TRY(sections[s].read(yaml, keys[s].value, c));
+    if (keys[CASES].value)
+        OST_TRY(ost_read_load_cases(yaml, keys[CASES].value, number, c));
+    return settle(yaml, keys, c);
 }
 
 int ost_is_every_region(const char *name)

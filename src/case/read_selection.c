@@ -159,7 +159,7 @@ OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSe
 
 void ost_selection_release(OstSelection *selection)
 {
-    OST_FREE_EACH(selection->boundaries.count, selection->boundaries.name);
+    ost_names_clear(&selection->boundaries);
     OST_FREE(selection->ranges, selection->vertices_file);
 }
 

@@ -203,10 +203,8 @@ static OstStatus allocate(OstContext *ctx, const OstEffects *effects, int region
     if (several)
         ost_ledger_enter(ctx, OST_EFFECT_REGIONS);
     OstStatus status = OST_NEW(ctx, &field->material, region_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &field->region_stiffness, 36 * region_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &field->region_varies, region_count);
+    OST_THEN(OST_NEW(ctx, &field->region_stiffness, 36 * region_count));
+    OST_THEN(OST_NEW(ctx, &field->region_varies, region_count));
     if (several)
         ost_ledger_leave(ctx);
     return status;
@@ -400,8 +398,7 @@ OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions
     ost_ledger_enter(field->ctx, OST_EFFECT_MIXED);
     if (ost_field_incompressible(field) < 0)
         status = split_regions(field, OST_SPLIT_MEAN, nu_limit, regions);
-    if (status == OST_SUCCESS)
-        status = split_regions(field, OST_SPLIT_MIXED, nu_limit, regions);
+    OST_THEN(split_regions(field, OST_SPLIT_MIXED, nu_limit, regions));
     ost_ledger_leave(field->ctx);
     return status;
 }

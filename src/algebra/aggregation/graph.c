@@ -177,11 +177,9 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     OstContext *ctx = matrix->ctx;
     *graph = NULL;
     OstStatus status = allocate_graph(ctx, matrix->rows, matrix->row_start[matrix->rows], graph);
-    if (status == OST_SUCCESS)
-        status = fill_from_matrix(matrix, geometry, *graph);
+    OST_THEN(fill_from_matrix(matrix, geometry, *graph));
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = part_at_jumps(matrix, geometry->facts, *graph);
+    OST_THEN(part_at_jumps(matrix, geometry->facts, *graph));
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(graph);
     return status;

@@ -255,8 +255,7 @@ static OstStatus prepare_vectors(OstMumps *mumps)
     OstContext *ctx = mumps->ctx;
     const int size = ost_rank(ctx) == 0 ? ost_size(ctx) : 0;
     OstStatus status = OST_NEW(ctx, &mumps->counts, 2 * size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0);
+    OST_THEN(OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0));
     OST_TRY(ost_agree(ctx, status));
     mumps->starts = mumps->counts + size;
     OST_TRY(OST_MPI(ctx, MPI_Gather(&mumps->unknowns, 1, MPI_INT, mumps->counts, 1, MPI_INT, 0, ost_comm(ctx))));

@@ -15,8 +15,7 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
     OST_TRY(OST_NEW(ctx, sum, 1));
     **sum = (OstBlockSum){.ctx = ctx, .first = first, .owned = owned};
     OstStatus status = ost_index_create(ctx, 1, &(*sum)->ghost);
-    if (status == OST_SUCCESS)
-        status = ost_index_create(ctx, 1, &(*sum)->entry);
+    OST_THEN(ost_index_create(ctx, 1, &(*sum)->entry));
     if (status != OST_SUCCESS)
         ost_block_sum_destroy(sum);
     return status;
@@ -129,8 +128,7 @@ OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo)
     OstContext *ctx = sum->ctx;
     OstFetchedRows *out = NULL, *in = NULL;
     OstStatus status = ost_fetched_rows_create(ctx, halo->ghosts, BLOCK * sizeof(double), &out);
-    if (status == OST_SUCCESS)
-        status = pack(sum, out);
+    OST_THEN(pack(sum, out));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_OWNERS, out, &in));
     OST_TRY_DONE(ost_agree(ctx, add(sum, halo->send_index, in)));

@@ -77,8 +77,7 @@ static OstStatus import_rows(Product *product, const OstGlobal *number)
     const size_t bytes = (size_t)(product->p->height * WIDTH) * sizeof(float) * (product->p->rest ? 2 : 1);
     OstFetchedRows *out = NULL;
     OstStatus status = ost_fetched_rows_create(ctx, halo->send_start[halo->neighbour_count], bytes, &out);
-    if (status == OST_SUCCESS)
-        status = pack_rows(product, number, out);
+    OST_THEN(pack_rows(product, number, out));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_GHOSTS, out, &product->far));
     const OstLocal blocks = product->far->start[product->far->rows];

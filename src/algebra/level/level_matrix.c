@@ -79,8 +79,7 @@ OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix 
         status = copy_upper_half(source, *matrix);
     }
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_exchange_create(source->halo, source->size, &(*matrix)->exchange);
+    OST_THEN(ost_exchange_create(source->halo, source->size, &(*matrix)->exchange));
     if (status != OST_SUCCESS)
         ost_level_matrix_destroy(matrix);
     return status;

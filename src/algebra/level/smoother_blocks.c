@@ -185,8 +185,7 @@ OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetr
     OstAggregates *groups = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &groups);
-    if (status == OST_SUCCESS)
-        status = ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks);
+    OST_THEN(ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks));
     ost_aggregates_destroy(&groups);
     return status;
 }

@@ -119,8 +119,7 @@ OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregate
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     status = ost_halo_import(matrix->halo, sizeof *made->coarse, made->coarse);
-    if (status == OST_SUCCESS)
-        status = ost_halo_import(matrix->halo, block_bytes, made->block);
+    OST_THEN(ost_halo_import(matrix->halo, block_bytes, made->block));
     OST_TRY_DONE(ost_agree(ctx, status));
 done:
     if (status != OST_SUCCESS)

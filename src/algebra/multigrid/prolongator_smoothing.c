@@ -248,8 +248,7 @@ OstStatus ost_tentative_keep(const OstTentative *tentative, const OstDoubleMatri
     OstContext *ctx = matrix->ctx;
     OstProlongator *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status = copy_rows(tentative, matrix, made);
+    OST_THEN(copy_rows(tentative, matrix, made));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse, 0, NULL, &made->halo));
     OST_TRY_DONE(ost_exchange_create(made->halo, OST_MODES, &made->exchange));

@@ -111,12 +111,9 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     OstHalo *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     *halo = NULL;
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &end, size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &send_count, size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &receive_count, size);
+    OST_THEN(OST_NEW(ctx, &end, size));
+    OST_THEN(OST_NEW(ctx, &send_count, size));
+    OST_THEN(OST_NEW(ctx, &receive_count, size));
     OST_TRY_DONE(ost_agree(ctx, status));
     made->ctx = ctx;
     made->owned = owned;

@@ -108,8 +108,7 @@ OstStatus ost_route_carry(const OstRoute *route, size_t size, const void *values
     char *outgoing = NULL;
     *arrived = NULL;
     OstStatus status = ost_allocate(ctx, (size_t)route->sends, size, (void **)&outgoing);
-    if (status == OST_SUCCESS)
-        status = ost_allocate(ctx, (size_t)route->receives, size, arrived);
+    OST_THEN(ost_allocate(ctx, (size_t)route->receives, size, arrived));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal s = 0; s < route->sends; s++)
         memcpy(outgoing + (size_t)s * size, (const char *)values + (size_t)route->item[s] * size, size);
@@ -126,8 +125,7 @@ OstStatus ost_route_answer(const OstRoute *route, size_t size, const void *answe
     OstContext *ctx = route->ctx;
     char *arrived = NULL;
     OstStatus status = ost_agree(ctx, ost_allocate(ctx, (size_t)route->sends, size, (void **)&arrived));
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, exchange(route, 1, size, answers, arrived));
+    OST_THEN(ost_agree(ctx, exchange(route, 1, size, answers, arrived)));
     for (OstLocal s = 0; status == OST_SUCCESS && s < route->sends; s++)
         memcpy((char *)mine + (size_t)route->item[s] * size, arrived + (size_t)s * size, size);
     OST_FREE(arrived);

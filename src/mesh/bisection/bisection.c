@@ -334,15 +334,13 @@ OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *tim
     OstMesh *linear = NULL;
     *fine = NULL;
     OstStatus status = ost_bisection_split(bisection, times, shape, &chunk);
-    if (status == OST_SUCCESS)
-        status = ost_mesh_distribute(ctx, &chunk, &linear);
+    OST_THEN(ost_mesh_distribute(ctx, &chunk, &linear));
     if (status == OST_SUCCESS && quadratic) {
         status = ost_mesh_raise(linear, shape, fine);
         ost_mesh_destroy(&linear);
     } else
         *fine = linear;
-    if (status == OST_SUCCESS)
-        status = ost_bisection_settle(bisection, *fine);
+    OST_THEN(ost_bisection_settle(bisection, *fine));
     ost_chunk_destroy(&chunk);
     if (status != OST_SUCCESS)
         ost_mesh_destroy(fine);

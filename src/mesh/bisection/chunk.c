@@ -93,8 +93,7 @@ static OstStatus label_leaves(const Forest *forest, OstGlobal *label)
 {
     OstGlobal *next = NULL;
     OstStatus status = ost_agree(forest->ctx, OST_NEW(forest->ctx, &next, forest->mesh->owned_tets));
-    if (status == OST_SUCCESS)
-        status = first_labels(forest, next);
+    OST_THEN(first_labels(forest, next));
     for (OstLocal i = 0; status == OST_SUCCESS && i < forest->leaf_count; i++)
         label[i] = next[forest->leaf[i].root]++;
     OST_FREE(next);
@@ -296,8 +295,7 @@ OstStatus ost_forest_chunk(Forest *forest, OstMeshChunk **chunk, OstGlobal **lea
     *leaf_label = NULL;
     qsort(forest->leaf, (size_t)forest->leaf_count, sizeof *forest->leaf, compare_leaves);
     OstStatus status = ost_agree(forest->ctx, OST_NEW(forest->ctx, &making.chunk, 1));
-    if (status == OST_SUCCESS)
-        status = make(&making, leaf_label);
+    OST_THEN(make(&making, leaf_label));
     OST_FREE(making.number);
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(&making.chunk);

@@ -191,10 +191,8 @@ static OstStatus send_answers(Forest *forest, const Answers *answers)
     OstRoute *route = NULL;
     Answer *heard = NULL;
     OstStatus status = ost_route_create(forest->ctx, answers->count, 1, answers->to, &route);
-    if (status == OST_SUCCESS)
-        status = ost_route_carry(route, sizeof *heard, answers->answer, (void **)&heard);
-    if (status == OST_SUCCESS)
-        status = ost_agree(forest->ctx, hear(forest, route->receives, heard));
+    OST_THEN(ost_route_carry(route, sizeof *heard, answers->answer, (void **)&heard));
+    OST_THEN(ost_agree(forest->ctx, hear(forest, route->receives, heard)));
     ost_route_destroy(&route);
     OST_FREE(heard);
     return status;
@@ -210,10 +208,8 @@ static OstStatus send_notices(const Forest *forest, OstRoute **route, Notice **n
         const OstGlobal rank = forest->notice[i].key.low / range;
         to[i] = rank < ost_size(ctx) ? (int)rank : ost_size(ctx) - 1;
     }
-    if (status == OST_SUCCESS)
-        status = ost_route_create(ctx, forest->notice_count, 1, to, route);
-    if (status == OST_SUCCESS)
-        status = ost_route_carry(*route, sizeof **notice, forest->notice, (void **)notice);
+    OST_THEN(ost_route_create(ctx, forest->notice_count, 1, to, route));
+    OST_THEN(ost_route_carry(*route, sizeof **notice, forest->notice, (void **)notice));
     OST_FREE(to);
     return status;
 }

@@ -88,8 +88,7 @@ static OstStatus send_ghosts(const OstMesh *mesh, const OstLocal *set, SharedTet
     SharedTet *ghost = NULL;
     OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &to, ghosts);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &ghost, ghosts);
+    OST_THEN(OST_NEW(ctx, &ghost, ghosts));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal i = 0; i < ghosts; i++) {
         const OstLocal tet = mesh->owned_tets + i;
@@ -204,8 +203,7 @@ OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, Ost
     OST_TRY_DONE(number_sets(mesh, set_count, set, count));
     OST_TRY_DONE(send_ghosts(mesh, set, &arrived, &arrivals));
     status = match_ghosts(mesh, set, arrived, arrivals, &links);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &merged, *count);
+    OST_THEN(OST_NEW(ctx, &merged, *count));
     OST_TRY_DONE(ost_agree(ctx, status));
     ost_set_start(merged, *count);
     OST_TRY_DONE(join_everywhere(ctx, &links, merged));

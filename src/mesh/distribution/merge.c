@@ -100,8 +100,7 @@ static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal
     int *to = NULL;
     OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &to, count);
+    OST_THEN(OST_NEW(ctx, &to, count));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_number_ends(ctx, merge->points.first + merge->points.count, end));
     for (OstLocal i = 0; i < count; i++)
@@ -133,8 +132,7 @@ static OstStatus number_merged(Merge *merge, double tolerance)
     OstGlobal *asked = NULL, *number = NULL;
     OstLocal count = 0;
     OstStatus status = OST_NEW(ctx, &asked, merge->points.count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &number, merge->points.count);
+    OST_THEN(OST_NEW(ctx, &number, merge->points.count));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal i = 0; i < merge->points.count; i++)
         if (merge->number[i] < 0)
@@ -193,10 +191,8 @@ static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merge
     OST_TRY(ost_slab_create(chunk, &merge->slab));
     OST_TRY(check_tolerance(merge, tolerance));
     OstStatus status = OST_NEW(ctx, &merge->lowest, chunk->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count);
-    if (status == OST_SUCCESS)
-        status = ost_chunk_label_nodes(chunk);
+    OST_THEN(OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count));
+    OST_THEN(ost_chunk_label_nodes(chunk));
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_coincident_find(&merge->points, tolerance, merge->lowest));
     OST_TRY(number_kept(merge));
@@ -214,8 +210,7 @@ OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merg
     ost_ledger_enter(chunk->ctx, OST_LEDGER_MESH);
     OstStatus status = ost_check_chunk(chunk);
     Merge merge = {.chunk = chunk, .points = {chunk->ctx, chunk->first_node, chunk->node_count, chunk->coordinates}};
-    if (status == OST_SUCCESS)
-        status = merge_vertices(&merge, tolerance, merged);
+    OST_THEN(merge_vertices(&merge, tolerance, merged));
     OST_FREE(merge.lowest, merge.number);
     ost_slab_destroy(&merge.slab);
     ost_ledger_leave(chunk->ctx);

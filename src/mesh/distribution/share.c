@@ -146,8 +146,7 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(broadcast(ctx, &outline, sizeof outline));
     status = OST_NEW(ctx, &text, outline.text_bytes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count);
+    OST_THEN(OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_rank(ctx) == 0)
         pack_names(*chunk, text, kind);

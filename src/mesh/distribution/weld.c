@@ -251,8 +251,7 @@ static OstStatus label_nodes(Welding *w)
                                                       : w->slab->ghost_number[i - (size_t)w->slab->node_count];
     spread_labels(w);
     OstStatus status = list_shared(w, &count, &node, &key);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &label, 2 * (size_t)count);
+    OST_THEN(OST_NEW(ctx, &label, 2 * (size_t)count));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (int round = 0; changed > 0 && round < MOST_ROUNDS; round++) {
         changed = 0;

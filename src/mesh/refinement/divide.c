@@ -303,8 +303,7 @@ OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const u
     Making making = {mid, division, turn, NULL, NULL, NULL};
     OstStatus status = ost_agree(mid->mesh->ctx, make_piece(&making));
     OST_FREE(making.local);
-    if (status == OST_SUCCESS)
-        status = ost_mesh_connect(making.mesh);
+    OST_THEN(ost_mesh_connect(making.mesh));
     if (status != OST_SUCCESS)
         ost_mesh_destroy(&making.mesh);
     if (status != OST_SUCCESS || !origin)

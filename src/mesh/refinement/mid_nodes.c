@@ -99,8 +99,7 @@ static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *end
     OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
     OST_TRY_DONE(ost_route_carry(route, sizeof *ends, ends, (void **)&asked));
     status = OST_NEW(ctx, &answer, route->receives);
-    if (status == OST_SUCCESS)
-        status = look_up(mid, route->receives, asked, answer);
+    OST_THEN(look_up(mid, route->receives, asked, answer));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, number));
 done:
@@ -117,8 +116,7 @@ static OstStatus number_ghosts(MidNodes *mid)
     Ends *ends = NULL;
     int *to = NULL;
     OstStatus status = OST_NEW(mesh->ctx, &ends, count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(mesh->ctx, &to, count);
+    OST_THEN(OST_NEW(mesh->ctx, &to, count));
     OST_TRY_DONE(ost_agree(mesh->ctx, status));
     list_questions(mid, ends, to);
     status = ask_owners(mid, count, ends, to, mid->number + mesh->node_count + owned);
@@ -188,8 +186,7 @@ OstStatus ost_mid_nodes_create(const OstMesh *mesh, const OstShapeSurface *shape
 {
     mid->mesh = mesh;
     OstStatus status = ost_edge_table_build(mesh, &mid->edges);
-    if (status == OST_SUCCESS)
-        status = allocate(mid);
+    OST_THEN(allocate(mid));
     OST_TRY(ost_agree(mesh->ctx, status));
     OST_TRY(number_owned(mid));
     OST_TRY(number_ghosts(mid));
