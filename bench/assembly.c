@@ -174,8 +174,7 @@ static OstStatus time_large_rotation(const Bench *bench, OstSystem *system, cons
     for (int work = 0; work < WORKS; work++)
         printf("  %-22s %8.2f ms   %.2f linear fills\n", name[work], 1e3 * least[work],
                least[work] / least[LINEAR_FILL]);
-    OST_FREE(u);
-    OST_FREE(force);
+    OST_FREE(u, force);
     return status;
 }
 

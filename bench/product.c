@@ -53,9 +53,7 @@ static OstStatus time_product(OstContext *ctx, const OstBlockMatrix *matrix, int
     printf("%-24s %8.3f ms   %.1f GB/s; the product runs at %.2f of it (check %g)\n", "reading its bytes",
            1e3 * reading, 1e-9 * bytes_of_product(matrix) / reading, reading / product,
            sum / (double)count / repetitions);
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(stream);
+    OST_FREE(x, y, stream);
     return OST_SUCCESS;
 }
 

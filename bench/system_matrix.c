@@ -24,8 +24,7 @@ static void release(Writing *w)
 {
     OST_FREE(w->right_side);
     ost_row_geometry_release(&w->rows);
-    OST_FREE(w->row_number);
-    OST_FREE(w->label);
+    OST_FREE(w->row_number, w->label);
     ost_problem_destroy(&w->problem);
     ost_scene_destroy(&w->scene);
     ost_case_destroy(&w->c);

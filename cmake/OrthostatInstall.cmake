@@ -7,7 +7,7 @@ if(TARGET orthostat_program)
   install(PROGRAMS scripts/plot-cost scripts/plot-effects scripts/plot-mesh scripts/plot-scale
           scripts/plot-sweep scripts/plot-verify DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
   install(PROGRAMS examples/cluster/orthostat.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
-  install(FILES scripts/picture_numbers.py DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
+  install(FILES scripts/picture_numbers.py scripts/plotting.py DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
   install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/orthostat)
   install(CODE "execute_process(COMMAND \"${CMAKE_CURRENT_SOURCE_DIR}/scripts/help-files\" \"$<TARGET_FILE:orthostat_program>\"
                   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\" RESULT_VARIABLE failed)

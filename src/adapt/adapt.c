@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "guard/guard.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -242,8 +241,7 @@ static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
     while (!ended) {
         OstStage *next = NULL;
         OstStatus status = ost_stage_create(adaption->ctx, &next);
-        if (status == OST_SUCCESS)
-            status = step(adaption, c, adaption->stage, start, next, &ended);
+        OST_THEN(step(adaption, c, adaption->stage, start, next, &ended));
         if (status == OST_SUCCESS && !ended) {
             OstStage *old = adaption->stage;
             adaption->stage = next;

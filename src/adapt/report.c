@@ -3,7 +3,6 @@
 
 #include "core/json_file.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static const char *const end_name[] = {

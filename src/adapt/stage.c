@@ -27,10 +27,7 @@ void ost_stage_destroy(OstStage **stage)
     if (!*stage)
         return;
     release_analysis(*stage);
-    OST_FREE((*stage)->start);
-    OST_FREE((*stage)->fall);
-    OST_FREE((*stage)->before);
-    OST_FREE((*stage)->cuts);
+    OST_FREE((*stage)->start, (*stage)->fall, (*stage)->before, (*stage)->cuts);
     ost_result_destroy(&(*stage)->result);
     ost_bisection_destroy(&(*stage)->bisection);
     ost_scene_destroy(&(*stage)->scene);
@@ -70,16 +67,14 @@ static OstStatus learn(OstStage *stage)
                          : stage->cuts[t] == 0 ? before[1]
                                                : ost_found_fall(order, before[0], share_of(stage, t), stage->cuts[t]);
     }
-    OST_FREE(stage->before);
-    OST_FREE(stage->cuts);
+    OST_FREE(stage->before, stage->cuts);
     return OST_SUCCESS;
 }
 
 OstStatus ost_stage_solve(OstStage *stage)
 {
     OstStatus status = ost_scene_problem(stage->scene, &stage->problem);
-    if (status == OST_SUCCESS)
-        status = ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis);
+    OST_THEN(ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis));
     if (status == OST_SUCCESS) {
         stage->analysis->start = stage->start;
         stage->analysis->leaves_reactions = 1;
@@ -149,8 +144,7 @@ static OstStatus carry_shares(const OstStage *stage, OstStage *next)
         pairs[2 * t] = share_of(stage, (OstLocal)t);
         pairs[2 * t + 1] = stage->fall[t];
     }
-    if (status == OST_SUCCESS)
-        status = ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts);
+    OST_THEN(ost_bisection_carry_tets(next->bisection, 2, pairs, next->before, next->cuts));
     OST_FREE(pairs);
     return status;
 }
@@ -170,8 +164,7 @@ static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisecti
     OST_TRY_DONE(ost_mark(mesh, share, stage->fall, marking, times));
     OST_TRY_DONE(ost_bisection_split(bisection, times, &surface, chunk));
 done:
-    OST_FREE(times);
-    OST_FREE(share);
+    OST_FREE(times, share);
     return status;
 }
 
@@ -195,11 +188,9 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
     ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
     OstStatus status = cut(stage, marking, next->bisection, &chunk);
     ost_ledger_leave(ctx);
-    if (status == OST_SUCCESS)
-        status = ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene);
+    OST_THEN(ost_scene_create_finer(stage->scene, &next->c, &chunk, &next->scene));
     ost_ledger_enter(ctx, OST_EFFECT_ADAPTIVITY);
-    if (status == OST_SUCCESS)
-        status = carry(stage, next);
+    OST_THEN(carry(stage, next));
     ost_ledger_leave(ctx);
     return status;
 }

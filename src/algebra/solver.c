@@ -13,7 +13,6 @@
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -192,8 +191,7 @@ OstStatus ost_solver_create(OstContext *ctx, const OstBlockMatrix *matrix, const
     OstSolver *made = NULL;
     *solver = NULL;
     OstStatus status = ost_solver_check_options(ctx, options);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made, 1);
+    OST_THEN(OST_NEW(ctx, &made, 1));
     OST_TRY_DONE(ost_agree(ctx, status));
     made->ctx = ctx;
     made->matrix = matrix;
@@ -436,8 +434,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     solver->smallest = goal.smallest;
     solver->scale = goal.scale;
     report_goal(&goal, stop->size, report);
-    if (status == OST_SUCCESS)
-        status = ost_goal_verdict(&goal);
+    OST_THEN(ost_goal_verdict(&goal));
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
     if (goal.crude || solver->saddle)

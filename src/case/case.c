@@ -173,75 +173,53 @@ static OstStatus check_load_cases(const OstYaml *yaml, const OstYamlNode *cases,
     return OST_SUCCESS;
 }
 
-/* `number`: of the load case (from 0), or OST_EVERY_LOAD_CASE. */
-static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
+/* The sections, in the order in which they are read. */
+enum {
+    TITLE,
+    MESH,
+    ELEMENT,
+    MATERIALS,
+    CONSTRAINTS,
+    SPRINGS,
+    LOADS,
+    WATCH,
+    ACCURACY,
+    SOLVER,
+    OUTPUT,
+    PATH,
+    LARGE_ROTATION,
+    FORMULATION,
+    VERIFY,
+    SWEEP,
+    CASES,
+    SECTIONS
+};
+static const struct {
+    const char *name;
+    OstStatus (*read)(const OstYaml *, const OstYamlNode *, OstCase *);
+} sections[SECTIONS] = {
+    [TITLE] = {.name = "title"},
+    [MESH] = {.name = "mesh", .read = ost_read_mesh},
+    [ELEMENT] = {.name = "element", .read = ost_read_element},
+    [MATERIALS] = {.name = "materials", .read = ost_read_materials},
+    [CONSTRAINTS] = {.name = "constraints", .read = ost_read_constraints},
+    [SPRINGS] = {.name = "springs", .read = ost_read_springs},
+    [LOADS] = {.name = "loads", .read = ost_read_loads},
+    [WATCH] = {.name = "watch", .read = ost_read_watches},
+    [ACCURACY] = {.name = "accuracy", .read = ost_read_accuracy},
+    [SOLVER] = {.name = "solver", .read = ost_read_solver},
+    [OUTPUT] = {.name = "output", .read = ost_read_output},
+    [PATH] = {.name = "path", .read = ost_read_load_path},
+    [LARGE_ROTATION] = {.name = "large_rotation", .read = ost_read_large_rotation},
+    [FORMULATION] = {.name = "formulation", .read = ost_read_formulation},
+    [VERIFY] = {.name = "verify", .read = ost_read_verify},
+    [SWEEP] = {.name = "sweep", .read = ost_read_sweep},
+    [CASES] = {.name = "cases"},
+};
+
+/* What sections say of each other. */
+static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
 {
-    enum {
-        TITLE,
-        MESH,
-        ELEMENT,
-        MATERIALS,
-        CONSTRAINTS,
-        SPRINGS,
-        LOADS,
-        WATCH,
-        ACCURACY,
-        SOLVER,
-        OUTPUT,
-        PATH,
-        LARGE_ROTATION,
-        FORMULATION,
-        VERIFY,
-        SWEEP,
-        CASES,
-        SECTIONS
-    };
-    OstYamlKey keys[SECTIONS] = {
-        [TITLE] = {.name = "title"},
-        [MESH] = {.name = "mesh", .needed = 1},
-        [ELEMENT] = {.name = "element"},
-        [MATERIALS] = {.name = "materials"},
-        [CONSTRAINTS] = {.name = "constraints"},
-        [SPRINGS] = {.name = "springs"},
-        [LOADS] = {.name = "loads"},
-        [ACCURACY] = {.name = "accuracy"},
-        [SOLVER] = {.name = "solver"},
-        [OUTPUT] = {.name = "output"},
-        [WATCH] = {.name = "watch"},
-        [PATH] = {.name = "path"},
-        [LARGE_ROTATION] = {.name = "large_rotation"},
-        [FORMULATION] = {.name = "formulation"},
-        [VERIFY] = {.name = "verify"},
-        [SWEEP] = {.name = "sweep"},
-        [CASES] = {.name = "cases"},
-    };
-    OstStatus (*const read[SECTIONS])(const OstYaml *, const OstYamlNode *, OstCase *) = {
-        [MESH] = ost_read_mesh,
-        [ELEMENT] = ost_read_element,
-        [MATERIALS] = ost_read_materials,
-        [SPRINGS] = ost_read_springs,
-        [LOADS] = ost_read_loads,
-        [CONSTRAINTS] = ost_read_constraints,
-        [ACCURACY] = ost_read_accuracy,
-        [SOLVER] = ost_read_solver,
-        [OUTPUT] = ost_read_output,
-        [WATCH] = ost_read_watches,
-        [PATH] = ost_read_load_path,
-        [LARGE_ROTATION] = ost_read_large_rotation,
-        [FORMULATION] = ost_read_formulation,
-        [VERIFY] = ost_read_verify,
-        [SWEEP] = ost_read_sweep,
-    };
-    OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
-    if (keys[TITLE].value)
-        OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
-    else
-        OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
-    for (int s = MESH; s < CASES; s++)
-        if (keys[s].value)
-            OST_TRY(read[s](yaml, keys[s].value, c));
-    if (keys[CASES].value)
-        OST_TRY(ost_read_load_cases(yaml, keys[CASES].value, number, c));
     if (c->free_body && c->spring_count > 0)
         return ost_yaml_raise(yaml, keys[SPRINGS].value,
                               "nothing holds a free body, and springs would; leave out these, or free_body");
@@ -259,6 +237,25 @@ static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
     OST_TRY(check_links(yaml, c));
     OST_TRY(check_distributing(yaml, c));
     return check_density(yaml, c);
+}
+
+/* `number`: of the load case (from 0), or OST_EVERY_LOAD_CASE. */
+static OstStatus read_sections(const OstYaml *yaml, int number, OstCase *c)
+{
+    OstYamlKey keys[SECTIONS];
+    for (int s = 0; s < SECTIONS; s++)
+        keys[s] = (OstYamlKey){.name = sections[s].name, .needed = s == MESH};
+    OST_TRY(ost_yaml_mapping(yaml, yaml->node, keys, SECTIONS));
+    if (keys[TITLE].value)
+        OST_TRY(ost_read_string(yaml, keys[TITLE].value, &c->title));
+    else
+        OST_TRY(ost_copy_string(yaml->ctx, "untitled", &c->title));
+    for (int s = 0; s < SECTIONS; s++)
+        if (keys[s].value && sections[s].read)
+            OST_TRY(sections[s].read(yaml, keys[s].value, c));
+    if (keys[CASES].value)
+        OST_TRY(ost_read_load_cases(yaml, keys[CASES].value, number, c));
+    return settle(yaml, keys, c);
 }
 
 int ost_is_every_region(const char *name)
@@ -498,9 +495,7 @@ void ost_case_destroy(OstCase **c)
     if (!*c)
         return;
     for (int i = 0; i < (*c)->material_count; i++) {
-        OST_FREE((*c)->materials[i].region);
-        OST_FREE((*c)->materials[i].eigen_field);
-        OST_FREE((*c)->materials[i].modulus.field);
+        OST_FREE((*c)->materials[i].region, (*c)->materials[i].eigen_field, (*c)->materials[i].modulus.field);
         ost_axes_spec_release(&(*c)->materials[i].axes);
     }
     for (int i = 0; i < (*c)->constraint_count; i++)
@@ -513,27 +508,19 @@ void ost_case_destroy(OstCase **c)
         ost_selection_release(&(*c)->springs[i].on);
     OST_FREE((*c)->springs);
     for (int i = 0; i < (*c)->watch_count; i++) {
-        OST_FREE((*c)->watches[i].name);
-        OST_FREE((*c)->watches[i].source);
-        OST_FREE((*c)->watches[i].region);
+        OST_FREE((*c)->watches[i].name, (*c)->watches[i].source, (*c)->watches[i].region);
         ost_selection_release(&(*c)->watches[i].on);
     }
     OST_FREE((*c)->watches);
     ost_probes_release((*c)->probe_count, &(*c)->probes);
     for (int i = 0; i < (*c)->table_count; i++)
         ost_time_table_release(&(*c)->tables[i]);
-    OST_FREE((*c)->tables);
-    OST_FREE((*c)->path_times);
+    OST_FREE((*c)->tables, (*c)->path_times);
     ost_verify_release(&(*c)->verify);
     ost_load_cases_release(*c);
     ost_sweep_release(*c);
-    OST_FREE((*c)->materials);
-    OST_FREE((*c)->constraints);
-    OST_FREE((*c)->loads);
-    OST_FREE((*c)->path);
-    OST_FREE((*c)->title);
-    OST_FREE((*c)->mesh_file);
-    OST_FREE((*c)->output_file);
+    OST_FREE((*c)->materials, (*c)->constraints, (*c)->loads, (*c)->path, (*c)->title, (*c)->mesh_file,
+             (*c)->output_file);
     OST_FREE(*c);
 }
 

@@ -320,11 +320,8 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
 
 void ost_axes_spec_release(OstAxesSpec *axes)
 {
-    OST_FREE(axes->points);
-    OST_FREE(axes->cells_file);
+    OST_FREE(axes->points, axes->cells_file);
     for (int i = 0; i < 2; i++) {
-        OST_FREE(axes->from[i]);
-        OST_FREE(axes->to[i]);
-        OST_FREE(axes->field[i]);
+        OST_FREE(axes->from[i], axes->to[i], axes->field[i]);
     }
 }

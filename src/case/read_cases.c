@@ -5,7 +5,6 @@
 #include "core/memory.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -244,9 +243,7 @@ OstStatus ost_read_sweep(const OstYaml *yaml, const OstYamlNode *node, OstCase *
 void ost_sweep_release(OstCase *c)
 {
     for (int k = 0; k < c->sweep_count; k++) {
-        for (int i = 0; i < c->sweep[k].count; i++)
-            OST_FREE(c->sweep[k].value[i]);
-        OST_FREE(c->sweep[k].value);
+        OST_FREE_EACH(c->sweep[k].count, c->sweep[k].value);
         OST_FREE(c->sweep[k].key);
     }
     OST_FREE(c->sweep);

@@ -93,6 +93,5 @@ OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c
 
 void ost_time_table_release(OstTimeTable *table)
 {
-    OST_FREE(table->time);
-    OST_FREE(table->factor);
+    OST_FREE(table->time, table->factor);
 }

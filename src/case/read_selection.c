@@ -159,11 +159,8 @@ OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSe
 
 void ost_selection_release(OstSelection *selection)
 {
-    for (int i = 0; selection->boundaries.name && i < selection->boundaries.count; i++)
-        OST_FREE(selection->boundaries.name[i]);
-    OST_FREE(selection->boundaries.name);
-    OST_FREE(selection->ranges);
-    OST_FREE(selection->vertices_file);
+    ost_names_clear(&selection->boundaries);
+    OST_FREE(selection->ranges, selection->vertices_file);
 }
 
 static int names_agree(const OstNames *one, const OstNames *other)

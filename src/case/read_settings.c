@@ -2,7 +2,6 @@
 #include "case/sections.h"
 #include "case/yaml/message.h"
 #include "core/error.h"
-#include "core/memory.h"
 #include "formats/serial/output_array.h"
 
 #include <float.h>

@@ -259,13 +259,11 @@ void ost_verify_release(OstVerify **verify)
 {
     if (!*verify)
         return;
-    OST_FREE((*verify)->formula);
-    OST_FREE((*verify)->source);
+    OST_FREE((*verify)->formula, (*verify)->source);
     for (int p = 0; p < OST_MOST_FORMULA_PARAMETERS; p++)
         OST_FREE((*verify)->parameter_name[p]);
     for (int q = 0; q < (*verify)->quantity_count; q++) {
-        OST_FREE((*verify)->quantity[q].name);
-        OST_FREE((*verify)->quantity[q].expected_name);
+        OST_FREE((*verify)->quantity[q].name, (*verify)->quantity[q].expected_name);
         ost_selection_release(&(*verify)->quantity[q].on);
     }
     OST_FREE((*verify)->quantity);

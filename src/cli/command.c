@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct argp_option common_options[] = {
@@ -111,6 +112,39 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
         return ARGP_ERR_UNKNOWN;
     }
     return 0;
+}
+
+error_t ost_cli_list(struct argp_state *state, const char *name, const char *text, int most, int *count, int *integers,
+                     double *numbers)
+{
+    const char *at = text;
+    for (*count = 0; *count < most;) {
+        char *end = NULL;
+        const double number = numbers ? strtod(at, &end) : (double)strtol(at, &end, 10);
+        if (end == at || (*end != ',' && *end != 0) || (integers && !(number >= 0.0 && number <= 1000.0)))
+            break;
+        if (integers)
+            integers[*count] = (int)number;
+        else
+            numbers[*count] = number;
+        ++*count;
+        if (*end == 0)
+            return 0;
+        at = end + 1;
+    }
+    argp_error(state, "--%s takes up to %d %s with commas between them, found '%s'", name, most,
+               integers ? "whole numbers from 0 on" : "numbers", text);
+    return EINVAL;
+}
+
+error_t ost_cli_max_time(struct argp_state *state, const char *text, double *seconds)
+{
+    char *end = NULL;
+    *seconds = strtod(text, &end);
+    if (end != text && *end == 0 && *seconds > 0.0)
+        return 0;
+    argp_error(state, "--max-time takes a number of seconds above 0, found '%s'", text);
+    return EINVAL;
 }
 
 OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c)

@@ -37,6 +37,12 @@ typedef struct OstArguments {
 
 error_t ost_cli_take(int key, char *value, struct argp_state *state);
 
+/* Values of options; return 0, or EINVAL with a message. "1,2,3", up to `most`, into `integers` or `numbers`, of which
+ * the other is NULL; and --max-time. */
+error_t ost_cli_list(struct argp_state *state, const char *name, const char *text, int most, int *count, int *integers,
+                     double *numbers);
+error_t ost_cli_max_time(struct argp_state *state, const char *text, double *seconds);
+
 /* Collective. ost_cli_run of a command that takes a case: with the options --set and --case. */
 int ost_cli_run_on_case(OstContext *ctx, const struct argp *argp, int argc, char **argv, void *input,
                         OstStatus (*work)(OstContext *ctx, void *input));

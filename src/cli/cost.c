@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/command.h"
+#include "cli/study_report.h"
 
 #include "cli/destination.h"
-#include "cli/installed.h"
 #include "core/error.h"
 #include "core/parallel/free_memory.h"
 #include "study/cost.h"
 #include "study/forecast/calibrate.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Arguments {
@@ -42,30 +39,6 @@ static const struct argp_option options[] = {
     {0},
 };
 
-/* Reads "1,2,3" into `integers` or `numbers`, of which the other is NULL. Returns 0, or EINVAL with a message. */
-static error_t read_list(struct argp_state *state, const char *name, const char *text, int *count, int *integers,
-                         double *numbers)
-{
-    const char *at = text;
-    for (*count = 0; *count < OST_COST_MOST_VALUES;) {
-        char *end = NULL;
-        const double number = numbers ? strtod(at, &end) : (double)strtol(at, &end, 10);
-        if (end == at || (*end != ',' && *end != 0) || (integers && !(number >= 0.0 && number <= 1000.0)))
-            break;
-        if (integers)
-            integers[*count] = (int)number;
-        else
-            numbers[*count] = number;
-        ++*count;
-        if (*end == 0)
-            return 0;
-        at = end + 1;
-    }
-    argp_error(state, "--%s takes up to %d %s with commas between them, found '%s'", name, OST_COST_MOST_VALUES,
-               integers ? "whole numbers from 0 on" : "numbers", text);
-    return EINVAL;
-}
-
 /* "linear,classical"; - for none. */
 static error_t read_formulations(struct argp_state *state, const char *text, OstCostVariants *variants)
 {
@@ -88,16 +61,6 @@ static error_t read_formulations(struct argp_state *state, const char *text, Ost
     return 0;
 }
 
-static error_t read_max_time(struct argp_state *state, const char *text, OstCostVariants *variants)
-{
-    char *end = NULL;
-    variants->max_seconds = strtod(text, &end);
-    if (end != text && *end == 0 && variants->max_seconds > 0.0)
-        return 0;
-    argp_error(state, "--max-time takes a number of seconds above 0, found '%s'", text);
-    return EINVAL;
-}
-
 static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
@@ -114,24 +77,26 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case ARGP_KEY_END:
         return arguments->calibrate ? 0 : ost_cli_take(key, value, state);
     case 't':
-        return read_max_time(state, value, v);
+        return ost_cli_max_time(state, value, &v->max_seconds);
     case ORDERS:
-        return read_list(state, "orders", value, &v->order_count, v->order, NULL);
+        return ost_cli_list(state, "orders", value, OST_COST_MOST_VALUES, &v->order_count, v->order, NULL);
     case REFINEMENTS:
-        return read_list(state, "refinements", value, &v->refinement_count, v->refinement, NULL);
+        return ost_cli_list(state, "refinements", value, OST_COST_MOST_VALUES, &v->refinement_count, v->refinement,
+                            NULL);
     case TOLERANCES:
-        return read_list(state, "tolerances", value, &v->tolerance_count, NULL, v->tolerance);
+        return ost_cli_list(state, "tolerances", value, OST_COST_MOST_VALUES, &v->tolerance_count, NULL, v->tolerance);
     case ACCURACIES:
         v->accuracy_count = 0;
         return strcmp(value, "-") == 0 ? 0
-                                       : read_list(state, "accuracies", value, &v->accuracy_count, NULL, v->accuracy);
+                                       : ost_cli_list(state, "accuracies", value, OST_COST_MOST_VALUES,
+                                                      &v->accuracy_count, NULL, v->accuracy);
     case FORMULATIONS:
         return read_formulations(state, value, v);
     case LOAD_STEPS:
         v->load_step_count = 0;
-        return strcmp(value, "-") == 0
-                   ? 0
-                   : read_list(state, "load-steps", value, &v->load_step_count, v->load_steps, NULL);
+        return strcmp(value, "-") == 0 ? 0
+                                       : ost_cli_list(state, "load-steps", value, OST_COST_MOST_VALUES,
+                                                      &v->load_step_count, v->load_steps, NULL);
     default:
         return ost_cli_take(key, value, state);
     }
@@ -149,23 +114,14 @@ static const struct argp cost_argp = {
     NULL,
     NULL};
 
-static OstStatus write_prices(const void *cost, const char *path)
+static OstStatus tell(const void *study, OstStudyForm form, const char *path)
 {
-    return ost_cost_write_json(cost, path);
-}
-
-static OstStatus report(const OstCost *cost, const char *csv, const char *json, const char *picture)
-{
-    OstStatus status = OST_SUCCESS;
-    if (ost_log_level(cost->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(csv) && !ost_cli_is_stdout(json))
-        ost_cost_print(cost);
-    if (csv)
-        status = ost_cost_write_csv(cost, csv);
-    if (status == OST_SUCCESS && json)
-        status = ost_cost_write_json(cost, json);
-    if (status == OST_SUCCESS && picture)
-        status = ost_cli_draw(cost->ctx, "plot-cost", write_prices, cost, picture);
-    return ost_agree(cost->ctx, status);
+    if (form == OST_AS_CSV)
+        return ost_cost_write_csv(study, path);
+    if (form == OST_AS_JSON)
+        return ost_cost_write_json(study, path);
+    ost_cost_print(study);
+    return OST_SUCCESS;
 }
 
 /* Keeps the rates of this machine, and shows how well they foretell the runs that they come from, and others. */
@@ -185,24 +141,20 @@ static OstStatus calibrate(OstContext *ctx, const char *json)
     return OST_SUCCESS;
 }
 
-/* Where reports go is checked before anything runs. */
 static OstStatus run_study(OstContext *ctx, void *input)
 {
     Arguments *arguments = input;
-    const char *const *text = arguments->common.text;
-    const char *const paths[] = {text['c'], text['j'], text['p']};
     OstCase *c = NULL;
     OstCost *cost = NULL;
     OstStatus status = OST_SUCCESS;
     if (arguments->calibrate)
-        return calibrate(ctx, text['j']);
+        return calibrate(ctx, arguments->common.text['j']);
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
     OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
-    OST_TRY_DONE(ost_check_outputs(c, 3, paths));
-    OST_TRY_DONE(ost_cli_check_picture(ctx, text['p']));
+    OST_TRY_DONE(ost_cli_check_reports(c, &arguments->common));
     OST_TRY_DONE(ost_cost_create(c, &arguments->variants, &cost));
     OST_TRY_DONE(ost_cost_run(cost));
-    status = report(cost, text['c'], text['j'], text['p']);
+    status = ost_cli_report(ctx, &arguments->common, tell, cost, "plot-cost");
 done:
     ost_cost_destroy(&cost);
     ost_case_destroy(&c);

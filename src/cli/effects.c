@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/command.h"
+#include "cli/study_report.h"
 
-#include "cli/destination.h"
-#include "cli/installed.h"
 #include "core/error.h"
 #include "study/effects.h"
 
@@ -22,36 +20,24 @@ static const struct argp effects_argp = {
         "the effects that change the answer by less than the accuracy asked for (accuracy: relative_error).",
 };
 
-static OstStatus write_study(const void *study, const char *path)
+static OstStatus tell(const void *study, OstStudyForm form, const char *path)
 {
-    return ost_effect_study_write_json(study, path);
+    if (form == OST_AS_JSON)
+        return ost_effect_study_write_json(study, path);
+    ost_effect_study_print(study);
+    return OST_SUCCESS;
 }
 
-static OstStatus report(const OstEffectStudy *study, const char *json, const char *picture)
-{
-    OstStatus status = OST_SUCCESS;
-    if (ost_log_level(study->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(json))
-        ost_effect_study_print(study);
-    if (json)
-        status = ost_effect_study_write_json(study, json);
-    if (status == OST_SUCCESS && picture)
-        status = ost_cli_draw(study->ctx, "plot-effects", write_study, study, picture);
-    return ost_agree(study->ctx, status);
-}
-
-/* Where reports go is checked before anything runs. */
 static OstStatus run_study(OstContext *ctx, void *input)
 {
     const OstArguments *arguments = input;
-    const char *const paths[] = {arguments->text['j'], arguments->text['p']};
     OstCase *c = NULL;
     OstEffectStudy study;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_cli_read_one(ctx, arguments, &c));
-    OST_TRY_DONE(ost_check_outputs(c, 2, paths));
-    OST_TRY_DONE(ost_cli_check_picture(ctx, paths[1]));
+    OST_TRY_DONE(ost_cli_check_reports(c, arguments));
     OST_TRY_DONE(ost_effect_study(c, &study));
-    status = report(&study, paths[0], paths[1]);
+    status = ost_cli_report(ctx, arguments, tell, &study, "plot-effects");
 done:
     ost_case_destroy(&c);
     return status;

@@ -94,8 +94,7 @@ OstStatus ost_cli_draw(OstContext *ctx, const char *script, OstStatus (*write)(c
             strerror(errno));
     snprintf(numbers, sizeof numbers, "%s/study.json", folder);
     OstStatus status = write(study, numbers);
-    if (status == OST_SUCCESS)
-        status = ost_cli_run_script(ctx, script, numbers, picture);
+    OST_THEN(ost_cli_run_script(ctx, script, numbers, picture));
     remove(numbers);
     rmdir(folder);
     return status;

@@ -18,10 +18,7 @@
 
 void ost_mesh_report_clear(OstMeshReport *counts)
 {
-    OST_FREE(counts->region_tets);
-    OST_FREE(counts->region_volume);
-    OST_FREE(counts->boundary_items);
-    OST_FREE(counts->boundary_area);
+    OST_FREE(counts->region_tets, counts->region_volume, counts->boundary_items, counts->boundary_area);
     ost_components_destroy(&counts->components);
 }
 

@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "cli/command.h"
+#include "cli/study_report.h"
 
-#include "cli/destination.h"
-#include "cli/installed.h"
 #include "core/error.h"
 #include "core/parallel/free_memory.h"
 #include "study/scale/scale.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Arguments {
@@ -32,29 +29,10 @@ static const struct argp_option options[] = {
     {0},
 };
 
-/* Reads "1,2,4" into numbers. Returns 0, or EINVAL with a message. */
-static error_t read_list(struct argp_state *state, const char *name, const char *text, int *count, double *number)
-{
-    const char *at = text;
-    for (*count = 0; *count < OST_SCALE_MOST_VALUES;) {
-        char *end = NULL;
-        number[*count] = strtod(at, &end);
-        if (end == at || (*end != ',' && *end != 0))
-            break;
-        ++*count;
-        if (*end == 0)
-            return 0;
-        at = end + 1;
-    }
-    argp_error(state, "--%s takes up to %d numbers with commas between them, found '%s'", name, OST_SCALE_MOST_VALUES,
-               text);
-    return EINVAL;
-}
-
 static error_t read_ranks(struct argp_state *state, const char *text, OstScaleVariants *v)
 {
     double number[OST_SCALE_MOST_VALUES];
-    const error_t failed = read_list(state, "ranks", text, &v->rank_count, number);
+    const error_t failed = ost_cli_list(state, "ranks", text, OST_SCALE_MOST_VALUES, &v->rank_count, NULL, number);
     for (int i = 0; !failed && i < v->rank_count; i++) {
         if (!(number[i] >= 1.0 && number[i] <= 1e6 && number[i] == (double)(int)number[i])) {
             argp_error(state, "--ranks takes whole numbers from 1 on, found '%s'", text);
@@ -69,12 +47,11 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     Arguments *arguments = state->input;
     OstScaleVariants *v = &arguments->variants;
-    char *end = NULL;
     switch (key) {
     case RANKS:
         return read_ranks(state, value, v);
     case SIZES:
-        return read_list(state, "sizes", value, &v->size_count, v->size);
+        return ost_cli_list(state, "sizes", value, OST_SCALE_MOST_VALUES, &v->size_count, NULL, v->size);
     case STRONG:
         v->weak = 0;
         return 0;
@@ -85,11 +62,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
                    ost_network_names(), value);
         return EINVAL;
     case 't':
-        v->max_seconds = strtod(value, &end);
-        if (end != value && *end == 0 && v->max_seconds > 0.0)
-            return 0;
-        argp_error(state, "--max-time takes a number of seconds above 0, found '%s'", value);
-        return EINVAL;
+        return ost_cli_max_time(state, value, &v->max_seconds);
     default:
         return ost_cli_take(key, value, state);
     }
@@ -107,23 +80,14 @@ static const struct argp scale_argp = {
     NULL,
     NULL};
 
-static OstStatus write_study(const void *scale, const char *path)
+static OstStatus tell(const void *study, OstStudyForm form, const char *path)
 {
-    return ost_scale_write_json(scale, path);
-}
-
-static OstStatus report(const OstScale *scale, const char *csv, const char *json, const char *picture)
-{
-    OstStatus status = OST_SUCCESS;
-    if (ost_log_level(scale->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(csv) && !ost_cli_is_stdout(json))
-        ost_scale_print(scale);
-    if (csv)
-        status = ost_scale_write_csv(scale, csv);
-    if (status == OST_SUCCESS && json)
-        status = ost_scale_write_json(scale, json);
-    if (status == OST_SUCCESS && picture)
-        status = ost_cli_draw(scale->ctx, "plot-scale", write_study, scale, picture);
-    return ost_agree(scale->ctx, status);
+    if (form == OST_AS_CSV)
+        return ost_scale_write_csv(study, path);
+    if (form == OST_AS_JSON)
+        return ost_scale_write_json(study, path);
+    ost_scale_print(study);
+    return OST_SUCCESS;
 }
 
 static OstStatus read_again(OstContext *ctx, const void *from, OstCase **c)
@@ -131,12 +95,9 @@ static OstStatus read_again(OstContext *ctx, const void *from, OstCase **c)
     return ost_cli_read_one(ctx, from, c);
 }
 
-/* Where reports go is checked before anything runs. */
 static OstStatus run_study(OstContext *ctx, void *input)
 {
     Arguments *arguments = input;
-    const char *const *text = arguments->common.text;
-    const char *const paths[] = {text['c'], text['j'], text['p']};
     OstCase *c = NULL;
     OstScale *scale = NULL;
     OstStatus status = OST_SUCCESS;
@@ -146,12 +107,11 @@ static OstStatus run_study(OstContext *ctx, void *input)
                          "the case is read anew for each number of ranks: name a file, not standard input");
     OST_TRY_DONE(ost_memory_installed(ctx, &arguments->variants.max_bytes));
     OST_TRY_DONE(ost_cli_read_one(ctx, &arguments->common, &c));
-    OST_TRY_DONE(ost_check_outputs(c, 3, paths));
-    OST_TRY_DONE(ost_cli_check_picture(ctx, text['p']));
+    OST_TRY_DONE(ost_cli_check_reports(c, &arguments->common));
     OST_TRY_DONE(ost_scale_create(c, read_again, &arguments->common, &arguments->variants, &scale));
     ost_case_destroy(&c);
     OST_TRY_DONE(ost_scale_run(scale));
-    status = report(scale, text['c'], text['j'], text['p']);
+    status = ost_cli_report(ctx, &arguments->common, tell, scale, "plot-scale");
 done:
     ost_scale_destroy(&scale);
     ost_case_destroy(&c);

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/sweep/sweep.h"
 
-#include "cli/command.h"
-#include "cli/destination.h"
-#include "cli/installed.h"
+#include "cli/study_report.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Arguments {
@@ -107,33 +104,26 @@ static OstStatus read_over(OstContext *ctx, const char *over, OstSweepKey *key)
 static void release_keys(int count, OstSweepKey *keys)
 {
     for (int k = 0; k < count; k++) {
-        for (int i = 0; i < keys[k].count; i++)
-            OST_FREE(keys[k].value[i]);
-        OST_FREE(keys[k].value);
+        OST_FREE_EACH(keys[k].count, keys[k].value);
         OST_FREE(keys[k].key);
     }
 }
 
 /* --- the command --- */
 
-static OstStatus write_study(const void *study, const char *path)
+static OstStatus tell(const void *study, OstStudyForm form, const char *path)
 {
-    return ost_sweep_write_json(study, path);
+    if (form == OST_AS_CSV)
+        return ost_sweep_write_csv(study, path);
+    if (form == OST_AS_JSON)
+        return ost_sweep_write_json(study, path);
+    ost_sweep_print(study);
+    return OST_SUCCESS;
 }
 
-static OstStatus report(const OstSweep *sweep, const char *const text[])
+static OstStatus report(const OstSweep *sweep, const OstArguments *arguments)
 {
-    const char *csv = text['c'], *json = text['j'], *picture = text['p'];
-    OstStatus status = OST_SUCCESS;
-    if (ost_log_level(sweep->ctx) != OST_LOG_QUIET && !ost_cli_is_stdout(csv) && !ost_cli_is_stdout(json))
-        ost_sweep_print(sweep);
-    if (csv)
-        status = ost_sweep_write_csv(sweep, csv);
-    if (status == OST_SUCCESS && json)
-        status = ost_sweep_write_json(sweep, json);
-    if (status == OST_SUCCESS && picture)
-        status = ost_cli_draw(sweep->ctx, "plot-sweep", write_study, sweep, picture);
-    OST_TRY(ost_agree(sweep->ctx, status));
+    OST_TRY(ost_cli_report(sweep->ctx, arguments, tell, sweep, "plot-sweep"));
     return sweep->failures == 0 ? OST_SUCCESS
                                 : OST_RAISE(sweep->ctx, OST_NOT_CONVERGED, "%s: %d of %d runs have no answer",
                                             sweep->path, sweep->failures, sweep->run_count);
@@ -141,16 +131,13 @@ static OstStatus report(const OstSweep *sweep, const char *const text[])
 
 static OstStatus check(const OstCase *c, const Arguments *arguments)
 {
-    const char *const *text = arguments->common.text;
-    const char *const paths[] = {text['c'], text['j'], text['p']};
     if (arguments->over_count == 0 && c->sweep_count == 0)
         return OST_RAISE(c->ctx, OST_INVALID_USAGE,
                          "%s: over what? Give --over KEY=a,b,c, or the case a section 'sweep'", c->path);
     if (c->sweep_count > OST_MOST_SWEEP_KEYS && arguments->over_count == 0)
         return OST_RAISE(c->ctx, OST_INVALID_INPUT, "%s: a sweep is over %d keys at most", c->path,
                          OST_MOST_SWEEP_KEYS);
-    OST_TRY(ost_check_outputs(c, 3, paths));
-    return ost_cli_check_picture(c->ctx, text['p']);
+    return ost_cli_check_reports(c, &arguments->common);
 }
 
 /* The case is read once: it may come from standard input. */
@@ -181,7 +168,7 @@ static OstStatus sweep_case(OstContext *ctx, void *input)
         sweep.key_count = c->sweep_count;
     }
     OST_TRY_DONE(ost_sweep_run(&sweep));
-    status = report(&sweep, common->text);
+    status = report(&sweep, common);
 done:
     ost_sweep_clear(&sweep);
     ost_case_destroy(&c);

@@ -163,8 +163,7 @@ static OstStatus check_paths(OstContext *ctx, const OstArguments *arguments, con
     for (int i = 0; i < list->count && status == OST_SUCCESS; i++) {
         OstCase *c = NULL;
         status = ost_case_read_with(ctx, list->path[i], arguments->settings, arguments->setting, &c);
-        if (status == OST_SUCCESS)
-            status = ost_check_outputs(c, count, paths);
+        OST_THEN(ost_check_outputs(c, count, paths));
         ost_case_destroy(&c);
     }
     return status;
@@ -231,8 +230,7 @@ done:
         arguments->all_passed &= reports[i] != NULL && reports[i]->passed;
         ost_verify_report_destroy(&reports[i]);
     }
-    OST_FREE(reports);
-    OST_FREE(list.path);
+    OST_FREE(reports, list.path);
     return status;
 }
 

@@ -20,8 +20,7 @@ void ost_index_destroy(OstIndex **index)
 {
     if (!*index)
         return;
-    OST_FREE((*index)->key);
-    OST_FREE((*index)->slot);
+    OST_FREE((*index)->key, (*index)->slot);
     OST_FREE(*index);
 }
 

@@ -96,6 +96,12 @@ OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memo
     return OST_SUCCESS;
 }
 
+OstStatus ost_grow(OstContext *ctx, size_t count, size_t size, void **memory)
+{
+    const size_t bytes = *memory ? ((Header *)*memory - 1)->bytes : 0;
+    return count <= bytes / size ? OST_SUCCESS : ost_reallocate(ctx, count + count / 2 + 16, size, memory);
+}
+
 void ost_free_memory(void *memory)
 {
     if (!memory)

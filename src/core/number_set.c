@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-static int compare_numbers(const void *a, const void *b)
+int ost_compare_numbers(const void *a, const void *b)
 {
     const OstGlobal x = *(const OstGlobal *)a;
     const OstGlobal y = *(const OstGlobal *)b;
@@ -17,7 +17,7 @@ OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers)
 {
     OstLocal kept = 0;
     if (count > 0)
-        qsort(numbers, (size_t)count, sizeof *numbers, compare_numbers);
+        qsort(numbers, (size_t)count, sizeof *numbers, ost_compare_numbers);
     for (OstLocal i = 0; i < count; i++)
         if (kept == 0 || numbers[i] != numbers[kept - 1])
             numbers[kept++] = numbers[i];

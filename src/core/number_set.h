@@ -6,6 +6,9 @@
 
 /* Sorted sets of numbers. Local. */
 
+/* For qsort and bsearch, of items that begin with an OstGlobal, by that. */
+int ost_compare_numbers(const void *a, const void *b);
+
 /* Sorts numbers, ascending, and keeps each once; returns how many are left. */
 OstLocal ost_numbers_sort(OstLocal count, OstGlobal *numbers);
 

@@ -104,15 +104,13 @@ OstStatus ost_aside_open_together(OstContext *ctx, const char *path, OstAside *a
 {
     OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? ost_aside_open(ctx, path, aside) : OST_SUCCESS));
     OstStatus status = share_name(ctx, &aside->path);
-    if (status == OST_SUCCESS)
-        status = share_name(ctx, &aside->aside);
+    OST_THEN(share_name(ctx, &aside->aside));
     return status == OST_SUCCESS ? OST_SUCCESS : ost_aside_finish_together(ctx, aside, status);
 }
 
 static void release(OstAside *aside)
 {
-    OST_FREE(aside->path);
-    OST_FREE(aside->aside);
+    OST_FREE(aside->path, aside->aside);
 }
 
 OstStatus ost_aside_finish(OstContext *ctx, OstAside *aside, OstStatus written)

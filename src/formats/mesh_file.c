@@ -18,8 +18,7 @@ void ost_file_materials_destroy(OstFileMaterials **materials)
 {
     if (!*materials)
         return;
-    OST_FREE((*materials)->material);
-    OST_FREE((*materials)->axes);
+    OST_FREE((*materials)->material, (*materials)->axes);
     OST_FREE(*materials);
 }
 

@@ -136,8 +136,6 @@ OstStatus ost_table_read(OstContext *ctx, const char *path, int width, OstGlobal
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(hand_out(ctx, &table, count, labels, values));
 done:
-    OST_FREE(table.row);
-    OST_FREE(table.wanted);
-    OST_FREE(table.piece);
+    OST_FREE(table.row, table.wanted, table.piece);
     return status;
 }

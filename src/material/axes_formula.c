@@ -134,9 +134,7 @@ void ost_axes_formula_destroy(OstAxesFormula **formula)
 {
     if (!*formula)
         return;
-    OST_FREE((*formula)->tangent);
-    OST_FREE((*formula)->normal);
-    OST_FREE((*formula)->spec.points);
+    OST_FREE((*formula)->tangent, (*formula)->normal, (*formula)->spec.points);
     OST_FREE(*formula);
 }
 

@@ -203,10 +203,8 @@ static OstStatus allocate(OstContext *ctx, const OstEffects *effects, int region
     if (several)
         ost_ledger_enter(ctx, OST_EFFECT_REGIONS);
     OstStatus status = OST_NEW(ctx, &field->material, region_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &field->region_stiffness, 36 * region_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &field->region_varies, region_count);
+    OST_THEN(OST_NEW(ctx, &field->region_stiffness, 36 * region_count));
+    OST_THEN(OST_NEW(ctx, &field->region_varies, region_count));
     if (several)
         ost_ledger_leave(ctx);
     return status;
@@ -336,9 +334,7 @@ static OstStatus split_mixed(OstContext *ctx, const OstMaterial *material, doubl
 
 static void forget_split(OstSplit *split)
 {
-    OST_FREE(split->stiff_mode);
-    OST_FREE(split->rest);
-    OST_FREE(split->looseness);
+    OST_FREE(split->stiff_mode, split->rest, split->looseness);
 }
 
 static OstStatus make_room(OstContext *ctx, int regions, OstSplit *split)
@@ -402,8 +398,7 @@ OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions
     ost_ledger_enter(field->ctx, OST_EFFECT_MIXED);
     if (ost_field_incompressible(field) < 0)
         status = split_regions(field, OST_SPLIT_MEAN, nu_limit, regions);
-    if (status == OST_SUCCESS)
-        status = split_regions(field, OST_SPLIT_MIXED, nu_limit, regions);
+    OST_THEN(split_regions(field, OST_SPLIT_MIXED, nu_limit, regions));
     ost_ledger_leave(field->ctx);
     return status;
 }
@@ -443,13 +438,7 @@ void ost_field_destroy(OstMaterialField **field)
     destroy_formulas(*field);
     forget_split(&(*field)->mean);
     forget_split(&(*field)->mixed);
-    OST_FREE((*field)->tet_scale);
-    OST_FREE((*field)->region_eigenstrain);
-    OST_FREE((*field)->tet_eigenstrain);
-    OST_FREE((*field)->material);
-    OST_FREE((*field)->region_stiffness);
-    OST_FREE((*field)->region_axes);
-    OST_FREE((*field)->region_varies);
-    OST_FREE((*field)->tet_turn);
+    OST_FREE((*field)->tet_scale, (*field)->region_eigenstrain, (*field)->tet_eigenstrain, (*field)->material,
+             (*field)->region_stiffness, (*field)->region_axes, (*field)->region_varies, (*field)->tet_turn);
     OST_FREE(*field);
 }

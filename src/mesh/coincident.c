@@ -143,8 +143,7 @@ static OstStatus take_answers(const OstPoints *points, OstLocal answers, const A
     OstRoute *route = NULL;
     Answer *arrived = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &to, answers);
+    OST_THEN(OST_NEW(ctx, &to, answers));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_number_ends(ctx, points->first + points->count, end));
     for (OstLocal i = 0; i < answers; i++)
@@ -156,9 +155,7 @@ static OstStatus take_answers(const OstPoints *points, OstLocal answers, const A
         *mine = arrived[i].lowest < *mine ? arrived[i].lowest : *mine;
     }
 done:
-    OST_FREE(end);
-    OST_FREE(to);
-    OST_FREE(arrived);
+    OST_FREE(end, to, arrived);
     ost_route_destroy(&route);
     return status;
 }
@@ -183,10 +180,7 @@ OstStatus ost_coincident_find(const OstPoints *points, double tolerance, OstGlob
     OST_TRY_DONE(ost_agree(ctx, compare_within_cubes(ctx, route->receives, arrived, tolerance, &answers, &answer)));
     OST_TRY_DONE(take_answers(points, answers, answer, lowest));
 done:
-    OST_FREE(point);
-    OST_FREE(arrived);
-    OST_FREE(answer);
-    OST_FREE(to);
+    OST_FREE(point, arrived, answer, to);
     ost_route_destroy(&route);
     return status;
 }
@@ -218,8 +212,7 @@ OstStatus ost_mesh_count_coincident(const OstMesh *mesh, const unsigned char *jo
     const double digit = pow(10.0, floor(log10(close_share * shortest)));
     *tolerance = digit * floor(close_share * shortest / digit * (1.0 + 4.0 * DBL_EPSILON));
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &lowest, mesh->owned_nodes));
-    if (status == OST_SUCCESS)
-        status = ost_coincident_find(&points, *tolerance, lowest);
+    OST_THEN(ost_coincident_find(&points, *tolerance, lowest));
     for (OstLocal i = 0; i < mesh->owned_nodes && status == OST_SUCCESS; i++)
         *count += lowest[i] != mesh->first_node + i && !(joined && joined[i]);
     OST_FREE(lowest);

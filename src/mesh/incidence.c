@@ -6,8 +6,7 @@
 
 void ost_incidence_clear(Incidence *incidence)
 {
-    OST_FREE(incidence->start);
-    OST_FREE(incidence->tet);
+    OST_FREE(incidence->start, incidence->tet);
 }
 
 OstStatus ost_incidence_build(OstContext *ctx, OstLocal node_count, OstLocal tet_count, int nodes_per_tet,

@@ -15,14 +15,8 @@ void ost_mesh_destroy(OstMesh **mesh)
     OstMesh *old = *mesh;
     if (!old)
         return;
-    OST_FREE(old->node_number);
-    OST_FREE(old->node_label);
-    OST_FREE(old->tet_label);
-    OST_FREE(old->coordinates);
-    OST_FREE(old->tet_nodes);
-    OST_FREE(old->tet_region);
-    OST_FREE(old->tet_axes);
-    OST_FREE(old->tet_field);
+    OST_FREE(old->node_number, old->node_label, old->tet_label, old->coordinates, old->tet_nodes, old->tet_region,
+             old->tet_axes, old->tet_field);
     ost_surface_destroy(&old->surface);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
@@ -181,13 +175,8 @@ void ost_chunk_destroy(OstMeshChunk **chunk)
     OstMeshChunk *old = *chunk;
     if (!old)
         return;
-    OST_FREE(old->coordinates);
-    OST_FREE(old->node_label);
-    OST_FREE(old->tet_nodes);
-    OST_FREE(old->tet_label);
-    OST_FREE(old->tet_region);
-    OST_FREE(old->tet_axes);
-    OST_FREE(old->tet_field);
+    OST_FREE(old->coordinates, old->node_label, old->tet_nodes, old->tet_label, old->tet_region, old->tet_axes,
+             old->tet_field);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     OST_FREE(*chunk);

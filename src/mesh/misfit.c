@@ -49,7 +49,7 @@ typedef struct Search {
     double corner[3]; /* the body's lowest */
     int top;          /* the level of the largest face */
     OstGlobal wanted; /* bits of the levels from there down: those that have faces */
-    OstLocal count, room;
+    OstLocal count;
     Face *face;
     int *to;
 } Search;
@@ -178,13 +178,10 @@ static uint64_t hash_of(int level, const int64_t cube[3])
 static OstStatus add(Search *search, const Face *face, uint64_t cube, int looks)
 {
     OstContext *ctx = search->mesh->ctx;
-    if (search->count == search->room) {
-        if (search->room > INT32_MAX / 2)
-            return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "one rank has too many surface faces; use more ranks");
-        search->room = search->room / 2 * 3 + 1024;
-        OST_TRY(OST_RESIZE(ctx, &search->face, search->room));
-        OST_TRY(OST_RESIZE(ctx, &search->to, search->room));
-    }
+    if (search->count == INT32_MAX)
+        return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "one rank has too many surface faces; use more ranks");
+    OST_TRY(OST_GROW(ctx, &search->face, (size_t)search->count + 1));
+    OST_TRY(OST_GROW(ctx, &search->to, (size_t)search->count + 1));
     Face *added = &search->face[search->count];
     *added = *face;
     added->cube = cube;
@@ -283,9 +280,9 @@ static OstStatus find_levels(Search *search, const unsigned char *joined)
 static OstStatus list_all(Search *search, const unsigned char *joined)
 {
     Face face;
-    search->room = search->surface->count < INT32_MAX / 4 ? 3 * search->surface->count + 64 : INT32_MAX / 2;
-    OST_TRY(OST_NEW(search->mesh->ctx, &search->face, search->room));
-    OST_TRY(OST_NEW(search->mesh->ctx, &search->to, search->room));
+    const size_t expected = 3 * (size_t)search->surface->count + 64;
+    OST_TRY(OST_NEW(search->mesh->ctx, &search->face, expected));
+    OST_TRY(OST_NEW(search->mesh->ctx, &search->to, expected));
     for (OstLocal f = 0; f < search->surface->count; f++) {
         if (!is_mine(search, f, joined))
             continue;
@@ -362,8 +359,7 @@ static OstStatus look_up_all(OstContext *ctx, OstLocal count, const Face *arrive
             listed[found++] = arrived[key[i].place];
     }
 done:
-    OST_FREE(key);
-    OST_FREE(listed);
+    OST_FREE(key, listed);
     return status;
 }
 
@@ -434,9 +430,7 @@ static OstStatus find(Search *search, const unsigned char *joined, OstMisfits *m
     OST_TRY_DONE(ost_agree(ctx, take_answers(search, mine, misfits)));
     OST_TRY_DONE(reduce(ctx, misfits));
 done:
-    OST_FREE(arrived);
-    OST_FREE(answers);
-    OST_FREE(mine);
+    OST_FREE(arrived, answers, mine);
     ost_route_destroy(&route);
     return status;
 }
@@ -449,7 +443,6 @@ OstStatus ost_mesh_find_misfits(const OstMesh *mesh, const unsigned char *joined
                             .tet = INT64_MAX,
                             .neighbour = INT64_MAX};
     const OstStatus status = find(&search, joined, misfits);
-    OST_FREE(search.face);
-    OST_FREE(search.to);
+    OST_FREE(search.face, search.to);
     return status;
 }

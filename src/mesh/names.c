@@ -8,17 +8,14 @@
 
 void ost_names_clear(OstNames *names)
 {
-    for (int i = 0; names->name && i < names->count; i++)
-        OST_FREE(names->name[i]);
-    OST_FREE(names->name);
+    OST_FREE_EACH(names->count, names->name);
     names->count = 0;
 }
 
 void ost_boundaries_destroy(int count, OstBoundary **boundaries)
 {
     for (int b = 0; *boundaries && b < count; b++) {
-        OST_FREE((*boundaries)[b].name);
-        OST_FREE((*boundaries)[b].nodes);
+        OST_FREE((*boundaries)[b].name, (*boundaries)[b].nodes);
     }
     OST_FREE(*boundaries);
 }

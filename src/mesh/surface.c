@@ -7,8 +7,7 @@ void ost_surface_destroy(OstSurface **surface)
 {
     if (!*surface)
         return;
-    OST_FREE((*surface)->nodes);
-    OST_FREE((*surface)->tet);
+    OST_FREE((*surface)->nodes, (*surface)->tet);
     OST_FREE(*surface);
 }
 
@@ -183,8 +182,7 @@ OstStatus ost_surface_create(const OstMesh *mesh, const unsigned char *marked, O
     OST_TRY_DONE(match_faces(mesh, &table));
     OST_TRY_DONE(keep_surface_faces(mesh, &table, *surface));
 done:
-    OST_FREE(table.start);
-    OST_FREE(table.face);
+    OST_FREE(table.start, table.face);
     status = ost_agree(mesh->ctx, status);
     if (status != OST_SUCCESS)
         ost_surface_destroy(surface);

@@ -84,9 +84,7 @@ OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces)
         status = ost_sum(chunk->ctx, 1, faces);
     }
     ost_route_destroy(&route);
-    OST_FREE(mine);
-    OST_FREE(to);
-    OST_FREE(hash);
+    OST_FREE(mine, to, hash);
     return status;
 }
 

@@ -39,9 +39,7 @@ OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, Ost
 
 void ost_load_case_report_release(OstLoadCaseReport *report)
 {
-    OST_FREE(report->failure);
-    OST_FREE(report->watched);
-    OST_FREE(report->file);
+    OST_FREE(report->failure, report->watched, report->file);
     json_decref(report->json);
     report->json = NULL;
 }

@@ -9,7 +9,6 @@
 #include "output/series.h"
 #include "output/summary.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -57,8 +56,7 @@ OstStatus ost_path_write_series(OstContext *ctx, OstPath *path, const char *outp
     OstStatus status = OST_NEW(ctx, &files, ost_path_done(path));
     OST_THEN(OST_NEW(ctx, &names, (size_t)ost_path_done(path) * (strlen(output) + 16)));
     OST_THEN(write_series(ctx, path, output, files, names));
-    OST_FREE(files);
-    OST_FREE(names);
+    OST_FREE(files, names);
     return status;
 }
 

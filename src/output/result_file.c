@@ -5,7 +5,6 @@
 #include "fields/output_field.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "formats/vtu/vtu.h"
-#include "problem/scene_data.h"
 #include "recovery/derived.h"
 
 #include <string.h>

@@ -6,7 +6,6 @@
 #include "output/path_files.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static json_t *vector_json(const double v[3])
 {

@@ -10,7 +10,6 @@
 #include "element/tets.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* A point this much outside, of a tet's height, is on its surface but for rounding; one that is less than `near`
  * outside belongs to the tet if no other holds it. */
@@ -183,9 +182,6 @@ OstStatus ost_locate(const OstMesh *mesh, OstLocal count, const double *points, 
     search(mesh, count, points, sorted, &found);
     status = agree(ctx, count, found.outside, least, label, located);
 done:
-    OST_FREE(sorted);
-    OST_FREE(found.outside);
-    OST_FREE(least);
-    OST_FREE(label);
+    OST_FREE(sorted, found.outside, least, label);
     return status;
 }

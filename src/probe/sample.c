@@ -75,7 +75,6 @@ OstStatus ost_sample_points(const OstResult *result, OstLocal count, const doubl
         }
     }
 done:
-    OST_FREE(located);
-    OST_FREE(rows);
+    OST_FREE(located, rows);
     return status;
 }

@@ -114,7 +114,6 @@ OstStatus ost_coarse_parents(const OstSystem *quadratic, const OstSystem *linear
     interpolate_from_ends(quadratic, linear, ends, *parents, *weights, weight_sum);
     interpolate_curved_edges(quadratic, linear, ends, *parents, *weights, weight_sum);
 done:
-    OST_FREE(ends);
-    OST_FREE(weight_sum);
+    OST_FREE(ends, weight_sum);
     return status;
 }

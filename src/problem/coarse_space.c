@@ -17,9 +17,7 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     ost_supports_destroy(&(*space)->supports);
     ost_mesh_destroy(&(*space)->mesh);
     ost_row_geometry_release(&(*space)->rows);
-    OST_FREE((*space)->node_of_vertex);
-    OST_FREE((*space)->parents);
-    OST_FREE((*space)->weights);
+    OST_FREE((*space)->node_of_vertex, (*space)->parents, (*space)->weights);
     OST_FREE(*space);
 }
 

@@ -6,7 +6,6 @@
 #include "assembly/supports.h"
 #include "assembly/system.h"
 #include "case/case_data.h"
-#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -95,8 +94,7 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
 done:
     ost_solver_destroy(&solver);
     ost_row_geometry_release(&rows);
-    OST_FREE(rhs);
-    OST_FREE(v);
+    OST_FREE(rhs, v);
     return status;
 }
 
@@ -110,8 +108,7 @@ typedef struct Slope {
 
 static void free_slope(Slope *slope)
 {
-    OST_FREE(slope->of_tet);
-    OST_FREE(slope->of_node);
+    OST_FREE(slope->of_tet, slope->of_node);
 }
 
 /* Directions of length 1; what is rounding beside the mean gradient of the region is none. */

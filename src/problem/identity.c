@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "material/field_data.h"
@@ -87,13 +88,6 @@ static OstStatus hash_bits(const OstProblem *problem, uint64_t *bits)
 
 /* --- what does not depend on the partition --- */
 
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static OstStatus hash_mesh(const OstProblem *problem, uint64_t *hash)
 {
     const OstMesh *mesh = problem->mesh;
@@ -102,7 +96,7 @@ static OstStatus hash_mesh(const OstProblem *problem, uint64_t *hash)
         OstGlobal labels[12];
         for (int a = 0; a < mesh->nodes_per_tet; a++)
             labels[a] = mesh->node_label[ost_mesh_nodes_of(mesh, t)[a]];
-        qsort(labels, (size_t)mesh->nodes_per_tet, sizeof *labels, compare_labels);
+        qsort(labels, (size_t)mesh->nodes_per_tet, sizeof *labels, ost_compare_numbers);
         labels[mesh->nodes_per_tet] = mesh->tet_label[t];
         labels[mesh->nodes_per_tet + 1] = mesh->tet_region[t];
         *hash += ost_hash(OST_HASH_START, (size_t)(mesh->nodes_per_tet + 2) * sizeof *labels, labels);

@@ -161,8 +161,7 @@ static OstStatus add_material_facts(const OstMaterialField *field, const OstMesh
             ost_plan_add_facts(ctx, &constants, &softest, &stiffest, facts);
         }
 done:
-    OST_FREE(least);
-    OST_FREE(most);
+    OST_FREE(least, most);
     return status;
 }
 

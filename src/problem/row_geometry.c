@@ -34,9 +34,7 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
 
 void ost_row_geometry_release(OstRowGeometry *rows)
 {
-    OST_FREE(rows->coordinates);
-    OST_FREE(rows->metric);
-    OST_FREE(rows->modes);
+    OST_FREE(rows->coordinates, rows->metric, rows->modes);
 }
 
 static void release(void *data)

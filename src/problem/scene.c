@@ -378,8 +378,7 @@ void ost_scene_destroy(OstScene **scene)
 {
     if (!*scene)
         return;
-    OST_FREE((*scene)->load_effect);
-    OST_FREE((*scene)->drive);
+    OST_FREE((*scene)->load_effect, (*scene)->drive);
     if ((*scene)->borrows) {
         OST_FREE(*scene);
         return;

@@ -212,7 +212,6 @@ OstStatus ost_scene_set_eigenstrain(OstScene *scene)
         OST_TRY_DONE(eigenstrain_of_tets(scene->c, scene->mesh, &of_tets));
     status = ost_field_set_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets);
 done:
-    OST_FREE(of_regions);
-    OST_FREE(of_tets);
+    OST_FREE(of_regions, of_tets);
     return status;
 }

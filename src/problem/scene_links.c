@@ -3,14 +3,12 @@
 
 #include "assembly/links/face_search.h"
 #include "assembly/spread.h"
-#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -213,8 +211,7 @@ static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint,
                  "name the faces of the other part",
                  scene->c->path, constraint->line);
     ost_face_search_destroy(&search);
-    OST_FREE(nodes);
-    OST_FREE(faces);
+    OST_FREE(nodes, faces);
     return status;
 }
 
@@ -367,9 +364,7 @@ static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constr
         if (cell.follows[n])
             status = link_periodic(&cell, n, factor, links);
     status = ost_agree(scene->ctx, status);
-    OST_FREE(cell.leads);
-    OST_FREE(cell.follows);
-    OST_FREE(cell.corner);
+    OST_FREE(cell.leads, cell.follows, cell.corner);
     return status;
 }
 

@@ -46,8 +46,7 @@ OstStatus ost_scene_materials(const OstCase *c, const OstNames *regions, const O
 
 void ost_scene_materials_release(OstSceneMaterials *materials)
 {
-    OST_FREE(materials->material);
-    OST_FREE(materials->axes);
+    OST_FREE(materials->material, materials->axes);
 }
 
 /* The line of each tet, and how many lines there are: one for each solid of the mesh file, of which rank 0 has all if
@@ -87,8 +86,7 @@ static OstStatus read_cell_axes(const OstCase *c, const OstCaseMaterial *stated,
             memcpy(chunk->tet_axes + 9 * t, table + 9 * t, 9 * sizeof *table);
     }
 done:
-    OST_FREE(line);
-    OST_FREE(table);
+    OST_FREE(line, table);
     return status;
 }
 

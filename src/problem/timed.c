@@ -34,9 +34,7 @@ OstStatus ost_problem_add_timed(OstProblem *problem, const OstTimeTable *table)
 void ost_problem_release_timed(OstProblem *problem)
 {
     for (int k = 0; k < problem->timed_count; k++) {
-        OST_FREE(problem->timed[k].table.time);
-        OST_FREE(problem->timed[k].table.factor);
-        OST_FREE(problem->timed[k].force);
+        OST_FREE(problem->timed[k].table.time, problem->timed[k].table.factor, problem->timed[k].force);
         ost_supports_destroy(&problem->timed[k].supports);
     }
     OST_FREE(problem->timed);

@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
-#include "element/tets.h"
 
 #include <string.h>
 

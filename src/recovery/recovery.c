@@ -2,7 +2,6 @@
 #include "recovery/recovery.h"
 
 #include "assembly/batch.h"
-#include "case/case_data.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -274,8 +273,7 @@ static OstStatus average_all(void *field, int count, void *const *request)
     OST_THEN(OST_NEW(mesh->ctx, &around.region, mesh->owned_nodes));
     if (status == OST_SUCCESS)
         average(count, request, &around);
-    OST_FREE(around.volume);
-    OST_FREE(around.region);
+    OST_FREE(around.volume, around.region);
     return status;
 }
 

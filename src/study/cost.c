@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const ost_cost_state_word[] = {"waiting", "done", "not run", "failed"};
 const char *const ost_cost_formulation_word[] = {"linear", "consistent", "classical"};

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { ERROR_WIDTH = 12, NORM_WIDTH = 9, CELL_SIZE = 40 };
 static const double mebibyte = 1048576.0;

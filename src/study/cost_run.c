@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* A refinement has 8 times the tets. The work of multigrid grows as much, that of a factorisation faster: the growth
  * that was measured counts, within these bounds. */

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/route.h"
 #include "core/small.h"
@@ -23,12 +24,6 @@ typedef struct Pose {
     PlacedNode *node; /* ascending labels: those that leave this rank's number when divided by the number of ranks */
 } Pose;
 
-static int by_label(const void *a, const void *b)
-{
-    const OstGlobal one = ((const PlacedNode *)a)->label, other = ((const PlacedNode *)b)->label;
-    return (one > other) - (one < other);
-}
-
 /* Collective. */
 static OstStatus take_pose(const OstMesh *mesh, const double *displacement, Pose *pose)
 {
@@ -48,11 +43,10 @@ static OstStatus take_pose(const OstMesh *mesh, const double *displacement, Pose
     OST_TRY_DONE(ost_route_create(ctx, mesh->owned_nodes, 1, to, &route));
     OST_TRY_DONE(ost_route_carry(route, sizeof *mine, mine, (void **)&pose->node));
     pose->count = route->receives;
-    qsort(pose->node, (size_t)pose->count, sizeof *pose->node, by_label);
+    qsort(pose->node, (size_t)pose->count, sizeof *pose->node, ost_compare_numbers);
 done:
     ost_route_destroy(&route);
-    OST_FREE(mine);
-    OST_FREE(to);
+    OST_FREE(mine, to);
     return status;
 }
 

@@ -243,6 +243,5 @@ OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariant
 
 void ost_variant_case_release(OstVariantCase *made)
 {
-    OST_FREE(made->materials);
-    OST_FREE(made->constraints);
+    OST_FREE(made->materials, made->constraints);
 }

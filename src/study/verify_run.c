@@ -278,10 +278,7 @@ void ost_verify_report_destroy(OstVerifyReport **report)
         return;
     for (int r = 0; r < (*report)->run_count; r++)
         OST_FREE((*report)->run[r].reading);
-    OST_FREE((*report)->run);
-    OST_FREE((*report)->verdict);
-    OST_FREE((*report)->name);
-    OST_FREE((*report)->failure);
+    OST_FREE((*report)->run, (*report)->verdict, (*report)->name, (*report)->failure);
     ost_case_destroy(&(*report)->c);
     OST_FREE(*report);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/earlier.h"
-#include "core/error.h"
 #include "support.h"
 
 #include <float.h>
@@ -93,7 +92,6 @@ static void check_sums(double unit)
 
 static void a_sum_of_earlier_loads_is_solved_by_the_start(void **state)
 {
-    (void)state;
     check_sums(1.0);
     check_sums(1e-6);
     check_sums(1e6);
@@ -101,7 +99,6 @@ static void a_sum_of_earlier_loads_is_solved_by_the_start(void **state)
 
 static void what_a_solve_leaves_is_not_taken_for_solved(void **state)
 {
-    (void)state;
     OstEarlier *earlier = NULL;
     double b[SIZE], x[SIZE];
     assert_success(ost_earlier_create(ctx, ROWS, SIZE - ROWS, &earlier));
@@ -116,7 +113,6 @@ static void what_a_solve_leaves_is_not_taken_for_solved(void **state)
 
 static void no_more_are_kept_than_there_is_room_for(void **state)
 {
-    (void)state;
     OstEarlier *earlier = NULL;
     double b[SIZE], x[SIZE];
     assert_success(ost_earlier_create(ctx, ROWS, SIZE - ROWS, &earlier));

@@ -82,7 +82,6 @@ static double effectivity(const char *text, int order, int refinement)
 
 static void true_errors_are_estimated(void **state)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int order;
@@ -159,7 +158,6 @@ static double mean_stress(const Answer *answer, int w, double *error)
 /* The mean over the tets of one of two materials, against that of a finer mesh and what this one still lacks. */
 static void errors_of_mean_stresses_are_estimated(void **state)
 {
-    (void)state;
     static const char *const bodies[] = {CUBE JUMPS HELD SIDEWAYS STRESSES};
     for (size_t b = 0; b < sizeof bodies / sizeof bodies[0]; b++)
         for (int order = 1; order <= 2; order++) {
@@ -184,7 +182,6 @@ static void errors_of_mean_stresses_are_estimated(void **state)
 /* Displacements and energy, against those of a finer mesh and what this one still lacks. */
 static void errors_of_watches_are_estimated(void **state)
 {
-    (void)state;
     static const char *const bodies[] = {BEAM STEEL HELD SIDEWAYS WATCHED, BEAM FIBRES HELD SIDEWAYS WATCHED};
     for (size_t b = 0; b < 2; b++)
         for (int order = 1; order <= 2; order++) {
@@ -208,7 +205,6 @@ static void errors_of_watches_are_estimated(void **state)
 /* What moves a body alone makes too much energy; beside loads, or with an eigenstrain, nobody knows. */
 static void energy_errors_have_a_sign(void **state)
 {
-    (void)state;
 #define MOVED                                                                                                     \
     "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: xmax}, displacement: [1, 2, " \
     "0]}]\n"
@@ -220,8 +216,7 @@ static void energy_errors_have_a_sign(void **state)
     const double truth = better->value + better->error - found->value;
     assert_true(truth < 0.0);
     assert_close(found->error, truth, 0.5 * fabs(truth));
-    OST_FREE(found);
-    OST_FREE(better);
+    OST_FREE(found, better);
     release(&coarse);
     release(&fine);
     Answer both = solve(CUBE STEEL MOVED HEAVY ENERGY FINE, 1, 0);
@@ -234,7 +229,6 @@ static void energy_errors_have_a_sign(void **state)
 /* A beam whose end turns by 30 degrees: how far is it still to go? */
 static void large_rotations_are_estimated(void **state)
 {
-    (void)state;
     static const char text[] =
         "mesh: {block: {size: [10, 1, 1], divisions: [20, 2, 2]}}\n" STEEL HELD
         "loads: [{on: {boundary: xmax}, traction: [0, 0, 2]}]\nlarge_rotation: on\noutput: {fields: [error]}\n";
@@ -254,7 +248,6 @@ static void large_rotations_are_estimated(void **state)
 /* Answers that the elements hold have no error, whatever acts on the body. */
 static void exact_answers_have_no_error(void **state)
 {
-    (void)state;
     static const char *const bodies[] = {
         CUBE STEEL "constraints: [{on: {boundary: xmin}, displacement: [0.5, -0.2, 0.1]}]\n" FINE,
         CUBE FIBRES "constraints: free_body\nloads: [{on: {boundary: xmin}, traction: [-1, 0, 0]}, {on: {boundary: "
@@ -282,7 +275,6 @@ static void exact_answers_have_no_error(void **state)
 /* The tets' shares add up to the whole. */
 static void shares_add_up(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Answer answer = solve(CUBE JUMPS HELD HEAVY FINE, order, 0);
         const double *error = ost_result_tet_error(answer.result);
@@ -309,7 +301,6 @@ static double error_of_watch(const Answer *answer)
 /* With factors, which do not depend on the partition, the estimate is that of one rank. */
 static void ranks_agree(void **state)
 {
-    (void)state;
     static const char text[] = CUBE JUMPS HELD HEAVY FINE
         "solver: {method: direct}\nwatch: {corner: {displacement: {nearest: [1, 1, 1]}, component: y}}\n";
     OstContext *const world = ctx;

@@ -97,7 +97,6 @@ static void assert_near(const OstSimd *found, const OstSimd *expected, int count
 
 static void straight_tets_are_integrated_without_error(void **state)
 {
-    (void)state;
     unsigned seed = 7U;
     OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS];
     OstSimd at_nodes[3 * NODES], at_functions[3 * FUNCTIONS], forces[3 * (NODES + FUNCTIONS)];
@@ -123,7 +122,6 @@ static void straight_tets_are_integrated_without_error(void **state)
 /* A C that is given at the points of the rule. */
 static void a_varying_stiffness_is_taken_at_the_points(void **state)
 {
-    (void)state;
     unsigned seed = 11U;
     OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], expected[2][3 * NODES];
     OstElasticity elasticity;
@@ -155,7 +153,6 @@ static void spread_stretch(const OstSimd a[6], double shear, OstSimd *c)
 /* Axes about the line x = -1, y = 0.5, along z: stretches 3, 2 and 1 along the radius, around, and along the line. */
 static void axes_about_a_line_need_no_stiffness(void **state)
 {
-    (void)state;
     unsigned seed = 17U;
     OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], expected[2][3 * NODES];
     OstSimd at_nodes[3 * NODES], at_functions[3 * FUNCTIONS];
@@ -195,7 +192,6 @@ static void axes_about_a_line_need_no_stiffness(void **state)
 /* A turn of a curved tet as a whole makes no force, and all forces together make none and no moment. */
 static void curved_tets_know_rotations(void **state)
 {
-    (void)state;
     unsigned seed = 13U;
     OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], at_nodes[3 * NODES], at_functions[3 * FUNCTIONS];
     const OstSimd zero[3 * NODES] = {{0}};

@@ -41,7 +41,6 @@ static double true_error(const OstAdaption *adaption, double energy)
 
 static void a_request_is_met_and_not_by_far(void **state)
 {
-    (void)state;
     static const double request[2] = {0.1, 0.05};
     OstCase *c = NULL;
     const double energy = 0.666362; /* by 222,330 unknowns that are 0.7 % off, and what they miss */
@@ -62,7 +61,6 @@ static void a_request_is_met_and_not_by_far(void **state)
 /* A reaction takes an adjoint problem: the level that stays the last solves it, and no other. */
 static void only_the_last_level_finds_the_errors_of_reactions(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstStage *stage = NULL, *next = NULL;
     OstMarking marking = {.order = 2, .target = 0.0, .least_tets = 40.0, .most_tets = 80.0};
@@ -101,7 +99,6 @@ static void only_the_last_level_finds_the_errors_of_reactions(void **state)
 /* Two cuts of a mesh take the same answer; the second solve starts from the first's. */
 static void levels_start_from_the_last_answer(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstAdaption *adaption = adapt(
         BEAM "accuracy: {relative_error: 0.08, relative_residual: 1e-6}\nsolver: {method: metric}\n", &no_limits, &c);
@@ -130,7 +127,6 @@ static void levels_start_from_the_last_answer(void **state)
 
 static void the_order_of_the_case_is_kept(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstAdaption *adaption = adapt(BEAM "element: {order: 1}\naccuracy: {relative_error: 0.5}\n", &no_limits, &c);
     assert_int_equal(adaption->end, OST_ADAPT_MET);
@@ -142,7 +138,6 @@ static void the_order_of_the_case_is_kept(void **state)
 
 static void limits_leave_the_best_answer_and_the_price_of_the_rest(void **state)
 {
-    (void)state;
     const OstAdaptLimits limits[2] = {{INFINITY, 1e6}, {1e-9, INFINITY}};
     const OstAdaptEnd ends[2] = {OST_ADAPT_OUT_OF_MEMORY, OST_ADAPT_OUT_OF_TIME};
     for (int i = 0; i < 2; i++) {
@@ -161,7 +156,6 @@ static void limits_leave_the_best_answer_and_the_price_of_the_rest(void **state)
 
 static void what_no_memory_allows_ends_early(void **state)
 {
-    (void)state;
     char words[OST_LONGEST_ADAPT_WORDS];
     OstCase *c = NULL;
     const OstAdaptLimits limits = {INFINITY, 1e9};
@@ -180,7 +174,6 @@ static void what_no_memory_allows_ends_early(void **state)
 /* Equal shares, and one that is 2^14 times larger: it takes three cuts (2^7), and the others none. */
 static void marks_make_shares_equal(void **state)
 {
-    (void)state;
     enum { TETS = 60 };
     const OstMesh mesh = {.ctx = ctx, .owned_tets = TETS};
     double error[TETS], fall[TETS];

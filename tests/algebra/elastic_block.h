@@ -205,9 +205,7 @@ static inline OstStatus elastic_geometry(const ElasticSlab *slab, ElasticProblem
 static inline void elastic_destroy(ElasticProblem *problem)
 {
     ost_block_matrix_destroy(&problem->matrix);
-    OST_FREE(problem->coordinates);
-    OST_FREE(problem->modes);
-    OST_FREE(problem->force);
+    OST_FREE(problem->coordinates, problem->modes, problem->force);
 }
 
 /* Collective over the context. */

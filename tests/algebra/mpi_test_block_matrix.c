@@ -35,7 +35,6 @@ static double *product(const ElasticProblem *problem)
 
 static void the_product_does_not_depend_on_the_ranks(void **state)
 {
-    (void)state;
     OstContext *alone = NULL;
     ElasticProblem shared;
     ElasticProblem whole;
@@ -47,8 +46,7 @@ static void the_product_does_not_depend_on_the_ranks(void **state)
     const size_t first = 3 * (size_t)shared.matrix->first_row;
     for (size_t i = 0; i < 3 * (size_t)shared.matrix->rows; i++)
         assert_close(y[i], expected[first + i], 1e-13);
-    OST_FREE(y);
-    OST_FREE(expected);
+    OST_FREE(y, expected);
     elastic_destroy(&shared);
     elastic_destroy(&whole);
     ost_context_destroy(&alone);
@@ -56,7 +54,6 @@ static void the_product_does_not_depend_on_the_ranks(void **state)
 
 static void rigid_motions_of_a_free_body_take_no_force(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
     const OstBlockMatrix *matrix = problem.matrix;
@@ -71,14 +68,12 @@ static void rigid_motions_of_a_free_body_take_no_force(void **state)
         assert_success(ost_block_matrix_apply(matrix, x, y));
         assert_true(norm(ctx, n, y) < 1e-12 * norm(ctx, n, x));
     }
-    OST_FREE(x);
-    OST_FREE(y);
+    OST_FREE(x, y);
     elastic_destroy(&problem);
 }
 
 static void the_six_modes_are_independent(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double gram[36];
     assert_success(elastic_create(ctx, &afloat, &problem));
@@ -99,7 +94,6 @@ static void the_six_modes_are_independent(void **state)
 /* Half of the blocks, the same product, compensated residual and entries; unfolded, every bit as before. */
 static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
 {
-    (void)state;
     ElasticProblem problem, folded;
     assert_success(elastic_create(ctx, &held, &problem));
     assert_success(elastic_create(ctx, &held, &folded));
@@ -124,11 +118,7 @@ static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
     assert_success(ost_block_matrix_unfold(folded.matrix));
     for (size_t i = 0; i < 9 * blocks; i++)
         assert_close(folded.matrix->value[i], matrix->value[i], 1e-15);
-    OST_FREE(y);
-    OST_FREE(expected);
-    OST_FREE(f);
-    OST_FREE(u);
-    OST_FREE(left);
+    OST_FREE(y, expected, f, u, left);
     elastic_destroy(&problem);
     elastic_destroy(&folded);
 }
@@ -136,7 +126,6 @@ static void a_folded_matrix_is_the_same_in_half_the_memory(void **state)
 /* The diagonal of a row without its transpose. */
 static void a_matrix_that_is_not_symmetric_stays_as_it_is(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &held, &problem));
     OstBlockMatrix *matrix = problem.matrix;

@@ -89,7 +89,6 @@ static double one_negative(OstGlobal g)
 
 static void a_known_spectrum_is_solved_and_measured(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(rising);
     OstSolverOptions options = ost_solver_default_options();
     options.relative_residual = 1e-12;
@@ -110,7 +109,6 @@ static void a_known_spectrum_is_solved_and_measured(void **state)
 
 static void scaling_gives_the_solution_of_the_unscaled_system(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &cube, &problem));
@@ -130,8 +128,7 @@ static void scaling_gives_the_solution_of_the_unscaled_system(void **state)
     for (size_t i = 0; i < n; i++)
         assert_close(u[0][i], u[1][i], 1e-9);
     assert_true(report[0].iterations < report[1].iterations);
-    OST_FREE(u[0]);
-    OST_FREE(u[1]);
+    OST_FREE(u[0], u[1]);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }
@@ -173,7 +170,6 @@ static OstSolveReport solve_pile(double drift)
 
 static void factors_go_on_where_rounding_hides_the_energy(void **state)
 {
-    (void)state;
     const OstSolveReport report = solve_pile(0.0);
     assert_true(report.iterations >= 1 && report.iterations < 20);
     assert_close(report.condition_estimate, 1.0, 1e-12);
@@ -185,7 +181,6 @@ static void factors_go_on_where_rounding_hides_the_energy(void **state)
 /* A drift is measured, not sampled: where it is the larger error, the spread is 0. */
 static void a_drift_beyond_rounding_is_the_error_and_has_no_spread(void **state)
 {
-    (void)state;
     const OstSolveReport large = solve_pile(0.75), small = solve_pile(0.01);
     assert_close(large.error_estimate, 0.75, 1e-15);
     assert_close(large.rounding_error, 0.75, 1e-15);
@@ -204,7 +199,6 @@ static double stiff_and_soft(OstGlobal g)
 /* Two iterations reach the residual; the displacement, all of it soft, is solved for beyond that. */
 static void a_displacement_that_the_residual_does_not_see_is_solved_for(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(stiff_and_soft);
     const OstBlockMatrix *matrix = problem.matrix;
     const OstLocal n = 3 * matrix->rows;
@@ -231,7 +225,6 @@ static void a_displacement_that_the_residual_does_not_see_is_solved_for(void **s
 
 static void an_indefinite_matrix_is_refused_by_its_sign(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(one_negative);
     const OstSolverOptions options = ost_solver_default_options();
     for (Implementation i = AZTEC; i < IMPLEMENTATIONS; i++) {
@@ -248,7 +241,6 @@ static void an_indefinite_matrix_is_refused_by_its_sign(void **state)
 
 static void an_indefinite_preconditioner_is_refused_in_any_iteration(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(rising);
     const OstSolverOptions options = ost_solver_default_options();
     for (Implementation i = AZTEC; i < IMPLEMENTATIONS; i++)
@@ -265,7 +257,6 @@ static void an_indefinite_preconditioner_is_refused_in_any_iteration(void **stat
 
 static void numbers_that_are_not_finite_are_refused(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(rising);
     const OstSolverOptions options = ost_solver_default_options();
     for (Implementation i = AZTEC; i < IMPLEMENTATIONS; i++) {
@@ -287,7 +278,6 @@ static void numbers_that_are_not_finite_are_refused(void **state)
 
 static void no_force_gives_no_displacement_in_no_iterations(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_problem(rising);
     const OstSolverOptions options = ost_solver_default_options();
     for (Implementation i = AZTEC; i < IMPLEMENTATIONS; i++) {
@@ -308,7 +298,6 @@ static void no_force_gives_no_displacement_in_no_iterations(void **state)
 
 static void too_few_iterations_are_reported_with_the_residual(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &cube, &problem));
     double *u = NULL;
@@ -332,7 +321,6 @@ static void too_few_iterations_are_reported_with_the_residual(void **state)
 
 static void more_than_double_precision_holds_is_refused_with_what_it_holds(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &cube, &problem));
     double *u = NULL;

@@ -31,7 +31,6 @@ static double largest_residual(const ElasticProblem *problem, const double *u, d
 /* M^-1 A has two eigenvalues, so that conjugate gradients take two steps. */
 static void a_mode_that_factors_miss_takes_one_step_more(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *u = NULL, *residual = NULL, *correction = NULL;
@@ -49,16 +48,13 @@ static void a_mode_that_factors_miss_takes_one_step_more(void **state)
     }
     assert_true(largest_residual(&problem, u, residual) < 1e-14);
     ost_compensated_step_destroy(&step);
-    OST_FREE(u);
-    OST_FREE(residual);
-    OST_FREE(correction);
+    OST_FREE(u, residual, correction);
     elastic_destroy(&problem);
 }
 
 /* p·Ap of one stiff pair that moves together, (a, -a; -a, a + d): in double precision alone 1 % of it is rounding. */
 static void what_rounding_hides_of_an_energy_is_found(void **state)
 {
-    (void)state;
     const double a = 1e8, d = 1e-6, p[2] = {1.0 / 3.0, (1.0 + 1e-9) / 3.0};
     const double stiff = a + d;
     ElasticProblem problem = diagonal_bar(diagonal);
@@ -85,15 +81,13 @@ static void what_rounding_hides_of_an_energy_is_found(void **state)
     if (first) /* r·p / p·Ap of p */
         assert_close(correction[1], p[0] / expected * p[1], 1e-9 * p[0] / expected * p[1]);
     ost_compensated_step_destroy(&step);
-    OST_FREE(correction);
-    OST_FREE(residual);
+    OST_FREE(correction, residual);
     elastic_destroy(&problem);
 }
 
 /* A step without a gain in energy is left as it was. */
 static void a_direction_without_energy_is_left_alone(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_bar(diagonal);
     const size_t n = 3 * (size_t)problem.matrix->rows;
     double *zero = NULL, *correction = NULL;
@@ -111,8 +105,7 @@ static void a_direction_without_energy_is_left_alone(void **state)
         assert_true(correction[i] == 1.0);
     assert_true(step->energy == 0.0);
     ost_compensated_step_destroy(&step);
-    OST_FREE(zero);
-    OST_FREE(correction);
+    OST_FREE(zero, correction);
     elastic_destroy(&problem);
 }
 

@@ -93,10 +93,7 @@ static void destroy(Known *known)
     ost_mumps_destroy(&known->factors);
     ost_scaling_destroy(&known->scaling);
     elastic_destroy(&known->problem);
-    OST_FREE(known->solution);
-    OST_FREE(known->f);
-    OST_FREE(known->u);
-    OST_FREE(known->work);
+    OST_FREE(known->solution, known->f, known->u, known->work);
 }
 
 static OstEnergyError estimate(Known *known)
@@ -118,8 +115,7 @@ static double displacement_error(const Known *known, double unit)
         u[i] = known->u[i] * unit;
     }
     const double error = sqrt(dot(known->n, off, off) / dot(known->n, u, u));
-    OST_FREE(off);
-    OST_FREE(u);
+    OST_FREE(off, u);
     return error;
 }
 
@@ -134,14 +130,12 @@ static double displace(Known *known, double size, double unit)
     }
     multiply(known, off, product);
     const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->u));
-    OST_FREE(off);
-    OST_FREE(product);
+    OST_FREE(off, product);
     return error;
 }
 
 static void with_the_matrix_itself_it_is_the_error_whatever_the_units(void **state)
 {
-    (void)state;
     const double units[] = {1.0, 0x1p+600, 0x1p-600};
     for (int k = 0; k < 6; k++) {
         const double unit = units[k / 2];
@@ -165,7 +159,6 @@ static void with_the_matrix_itself_it_is_the_error_whatever_the_units(void **sta
 
 static void with_factors_it_is_the_error_of_the_displacement_itself(void **state)
 {
-    (void)state;
     const double units[] = {1.0, 0x1p+600, 0x1p-600};
     for (int k = 0; k < 6; k++) {
         Known known = make(units[k / 2], k % 2);
@@ -212,15 +205,13 @@ static double moved(Known *known, double share, int round)
     const double error = sqrt(dot(known->n, off, product) / dot(known->n, known->f, known->solution));
     ost_mumps_destroy(&factors);
     elastic_destroy(&other);
-    OST_FREE(off);
-    OST_FREE(product);
+    OST_FREE(off, product);
     return error;
 }
 
 /* A rounding 64 times coarser than that of double precision can be watched. */
 static void rounding_is_what_other_roundings_of_the_matrix_do(void **state)
 {
-    (void)state;
     enum { ROUNDS = 12 };
     const double share = 64.0 * 0.5 * DBL_EPSILON;
     Known known = make_of(pile, 1.0, 0);
@@ -282,7 +273,6 @@ static void destroy_missed(Missed *missed)
 /* One application of such factors would tell 2.75 times too much, or too little. */
 static void what_rounding_does_is_told_by_factors_that_miss_a_soft_mode(void **state)
 {
-    (void)state;
     const double factors[] = {1.0, 2.75, 1.0 / 2.75};
     OstEnergyError error[3];
     for (int k = 0; k < 3; k++) {
@@ -301,7 +291,6 @@ static void what_rounding_does_is_told_by_factors_that_miss_a_soft_mode(void **s
 /* The pair alone has an error close to 0.1: eight samples cannot decide on which side. */
 static void near_the_largest_accepted_error_more_samples_are_taken(void **state)
 {
-    (void)state;
     Missed missed = make_missed(1.0);
     for (OstLocal i = has_pair(missed.problem.matrix) ? 2 : 0; i < 3 * missed.problem.matrix->rows; i++)
         missed.problem.force[i] = missed.u[i] = 0.0;
@@ -314,7 +303,6 @@ static void near_the_largest_accepted_error_more_samples_are_taken(void **state)
 /* The factors are of a matrix that is definite, as rounding leaves them of one that is not: nothing is known then. */
 static void a_matrix_that_rounding_makes_indefinite_has_no_bound(void **state)
 {
-    (void)state;
     Missed missed = make_missed(1.0);
     if (has_pair(missed.problem.matrix))
         missed.problem.matrix->value[9 * (size_t)missed.problem.matrix->diagonal[0] + 4] -= 2.0 * softness();
@@ -334,7 +322,6 @@ static OstStatus halve(void *data, const double *r, double *z)
 /* A direction of negative energy in which u has nothing, and so no rounding of A either. */
 static void a_negative_energy_that_no_rounding_reaches_is_found_by_the_residual(void **state)
 {
-    (void)state;
     ElasticProblem problem = diagonal_bar((const double[3]){2.0, 2.0, 2.0});
     OstBlockMatrix *matrix = problem.matrix;
     double *u = numbers(3 * (size_t)matrix->rows);
@@ -387,7 +374,6 @@ static OstEnergyError estimate_diagonal(const double value[3], double wrong, dou
 /* By the energy alone, the error of the first would be a thousandth of what it is. */
 static void a_displacement_where_little_of_the_energy_is_is_told_and_said_to_be_hidden(void **state)
 {
-    (void)state;
     OstEnergyError error = estimate_diagonal(uneven, 1e-3, 1.0);
     assert_close(error.whole, 1e-3, 1e-5);
     assert_true(error.hidden);
@@ -404,7 +390,6 @@ static void a_displacement_where_little_of_the_energy_is_is_told_and_said_to_be_
 
 static void what_cannot_be_measured_is_no_number(void **state)
 {
-    (void)state;
     Known known = make(1.0, 1);
     displace(&known, 0.1, 1.0);
     known.sign = -1.0;

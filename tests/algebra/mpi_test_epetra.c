@@ -13,7 +13,6 @@ static OstEpetraMap *make_map(void)
 
 static void a_norm_sees_the_values_of_all_ranks_in_place(void **state)
 {
-    (void)state;
     OstEpetraMap *map = make_map();
     double values[16];
     double norm = -1.0;
@@ -32,7 +31,6 @@ static void a_norm_sees_the_values_of_all_ranks_in_place(void **state)
 
 static void more_unknowns_than_epetra_numbers_are_refused(void **state)
 {
-    (void)state;
     if (ost_size(ctx) < 2) /* one rank's count is an int */
         skip();
     OstEpetraMap *map = NULL;

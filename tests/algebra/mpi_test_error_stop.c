@@ -42,8 +42,7 @@ static Body create(const ElasticBlock *block)
 static void destroy(Body *body)
 {
     ost_solver_destroy(&body->solver);
-    OST_FREE(body->u);
-    OST_FREE(body->solution);
+    OST_FREE(body->u, body->solution);
     elastic_destroy(&body->problem);
 }
 
@@ -60,8 +59,7 @@ static double energy_norm(const Body *body, const double *v)
     for (size_t i = 0; i < body->n; i++)
         square += x[i] * y[i];
     MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    OST_FREE(x);
-    OST_FREE(y);
+    OST_FREE(x, y);
     return sqrt(square);
 }
 
@@ -116,7 +114,6 @@ static void follow(const ElasticBlock *block)
 
 static void the_error_is_known_while_cg_runs_within_a_third_and_seven_times(void **state)
 {
-    (void)state;
     follow(&easy);
     follow(&uneven);
     follow(&nearly_incompressible);
@@ -135,7 +132,6 @@ static OstStatus ask_for_less(void *data, const double *u, double error, double 
 
 static void a_stop_saves_what_it_says_and_the_solve_goes_on_from_there(void **state)
 {
-    (void)state;
     Body body = create(&uneven);
     double share = 0.1;
     const OstErrorStop stop = {.ask = ask_for_less, .data = &share, .first = 0.1, .relative = 1};
@@ -169,7 +165,6 @@ static OstStatus give_up(void *data, const double *u, double error, double *next
 
 static void without_an_answer_the_residual_ends_the_iteration(void **state)
 {
-    (void)state;
     Body body = create(&easy);
     int asked = 0;
     const OstErrorStop stop = {.ask = give_up, .data = &asked, .first = 0.1, .relative = 1};
@@ -193,7 +188,6 @@ static OstStatus fail_alone(void *data, const double *u, double error, double *n
 
 static void a_failure_of_the_stop_is_passed_on(void **state)
 {
-    (void)state;
     Body body = create(&easy);
     const OstErrorStop stop = {.ask = fail_alone, .first = 0.1, .relative = 1};
     OstSolveReport report;

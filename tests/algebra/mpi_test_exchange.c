@@ -19,7 +19,6 @@ static double *numbers(const OstHalo *halo, int width)
 /* ML's exchange does what our own does, in both directions. */
 static void it_moves_the_same_numbers_as_the_halo(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &block, &problem));
     OstHalo *halo = problem.matrix->halo;
@@ -35,8 +34,7 @@ static void it_moves_the_same_numbers_as_the_halo(void **state)
         assert_success(ost_halo_add_to_owners(halo, width, expected));
         for (size_t i = 0; i < count; i++)
             assert_close(x[i], expected[i], 1e-15 * fabs(expected[i]));
-        OST_FREE(x);
-        OST_FREE(expected);
+        OST_FREE(x, expected);
         ost_exchange_destroy(&exchange);
         assert_null(exchange);
     }

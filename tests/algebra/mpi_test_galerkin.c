@@ -2,7 +2,6 @@
 #include "algebra/level/galerkin.h"
 
 #include "algebra/aggregation/aggregates.h"
-#include "algebra/level/block_sum.h"
 #include "algebra/level/fetched_rows.h"
 #include "algebra/multigrid/prolongator_smoothing.h"
 #include "elastic_block.h"
@@ -119,7 +118,6 @@ static double global_dot(size_t n, const double *a, const double *b)
 
 static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
 {
-    (void)state;
     Coarse c;
     make_coarse(&soft_and_stiff, 12.0, NULL, &c);
     const size_t n = 6 * (size_t)c.coarse->rows;
@@ -134,17 +132,12 @@ static void the_coarse_matrix_is_the_product_to_double_precision(void **state)
     assert_true(size > 1.0);
     for (size_t i = 0; i < n; i++)
         assert_close(cx[i], expected[i], 1e-13 * size);
-    OST_FREE(x);
-    OST_FREE(cx);
-    OST_FREE(px);
-    OST_FREE(apx);
-    OST_FREE(expected);
+    OST_FREE(x, cx, px, apx, expected);
     destroy_coarse(&c);
 }
 
 static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **state)
 {
-    (void)state;
     Coarse c;
     make_coarse(&soft_and_stiff, 12.0, NULL, &c);
     const OstDoubleMatrix *a = c.coarse;
@@ -165,10 +158,7 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
             for (int s = 0; s < r; s++)
                 assert_close(diagonal[6 * r + s], diagonal[6 * s + r], 1e-12);
     }
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(ax);
-    OST_FREE(ay);
+    OST_FREE(x, y, ax, ay);
     destroy_coarse(&c);
 }
 
@@ -176,7 +166,6 @@ static void the_coarse_matrix_is_symmetric_and_its_rows_are_in_order(void **stat
  * reproduced, and the coarse unknown nobody uses gets a harmless equation. */
 static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
 {
-    (void)state;
     const ElasticBlock line = {.bricks = {2, 1, 7}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     Coarse c;
     OstLocal of_node[48];
@@ -211,15 +200,13 @@ static void a_mode_that_an_aggregate_cannot_show_is_left_out(void **state)
                            c.tentative->modes[6 * (m * c.coarse->rows + of_node[i]) + k];
                 assert_close(sum, c.problem.geometry.modes[m * 3 * rows + 3 * i + r], 1e-5);
             }
-    OST_FREE(ones);
-    OST_FREE(force);
+    OST_FREE(ones, force);
     destroy_coarse(&c);
 }
 
 /* Row i of this rank goes round: its length and its columns tell where it came from. */
 static void rows_travel_to_ghosts_and_back(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &soft_and_stiff, &problem));
     OstHalo *halo = problem.matrix->halo;

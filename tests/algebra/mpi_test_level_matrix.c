@@ -34,7 +34,6 @@ static double *noise(const OstLevelMatrix *matrix)
 
 static void half_a_matrix_multiplies_as_the_whole_does(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &block, &problem));
     OstLevelMatrix *level = level_matrix(problem.matrix);
@@ -46,9 +45,7 @@ static void half_a_matrix_multiplies_as_the_whole_does(void **state)
     for (size_t i = 0; i < ost_level_unknowns(level); i++)
         assert_close(y[i], 5.0 - 2.0 * expected[i], 1e-4); /* entries up to 30 in single precision */
     assert_int_equal(level->nonzeros, 9 * problem.matrix->row_start[problem.matrix->rows]);
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(expected);
+    OST_FREE(x, y, expected);
     ost_level_matrix_destroy(&level);
     elastic_destroy(&problem);
 }
@@ -72,14 +69,12 @@ static void check_step(const OstLevelMatrix *level, const OstSmootherBlocks *blo
         assert_close(direction[i], 3.0 * v[i], 1e-3); /* single precision */
         assert_close(x[i], direction[i], 0.0);
     }
-    OST_FREE(direction);
-    OST_FREE(x);
+    OST_FREE(direction, x);
 }
 
 /* Where blocks are larger than the matrix' couplings reach, they are the matrix itself. */
 static void one_block_of_any_size_inverts_its_nodes(void **state)
 {
-    (void)state;
     const int bricks[5][3] = {{0, 0, 1}, {1, 1, 1}, {2, 1, 1}, {3, 3, 1}, {5, 3, 1}}; /* 1, 4, 6, 16, 24 nodes */
     for (int k = 0; k < 5; k++) {
         OstContext *alone = NULL;
@@ -100,8 +95,7 @@ static void one_block_of_any_size_inverts_its_nodes(void **state)
         assert_success(ost_smoother_blocks_create(level, graph, 1000.0, 0, &blocks));
         assert_int_equal(blocks->count, 1);
         check_step(level, blocks, r, v);
-        OST_FREE(v);
-        OST_FREE(r);
+        OST_FREE(v, r);
         ost_smoother_blocks_destroy(&blocks);
         ost_metric_graph_destroy(&graph);
         ost_level_matrix_destroy(&level);
@@ -120,7 +114,6 @@ static void divide(const void *data, const double *r, double *z)
 /* A chain of springs: eigenvalues 2 - 2 cos(k pi / (n + 1)). Conjugate gradients find n of them in n steps. */
 static void the_largest_eigenvalue_of_a_chain_is_found(void **state)
 {
-    (void)state;
     enum { NODES = 8 };
     const int rank = ost_rank(ctx), size = ost_size(ctx);
     const OstLocal low = NODES * rank / size, high = NODES * (rank + 1) / size, rows = high - low;
@@ -220,7 +213,6 @@ static void multiply_plainly(const OstLevelMatrix *matrix, const double *x, doub
 
 static void blocks_of_six_multiply_as_plain_loops_do(void **state)
 {
-    (void)state;
     OstDoubleMatrix *band = create_band();
     OstLevelMatrix *level = NULL;
     assert_success(ost_level_matrix_create(band, &level));
@@ -229,9 +221,7 @@ static void blocks_of_six_multiply_as_plain_loops_do(void **state)
     ost_level_matrix_add(level, 1.0, x, y);
     for (size_t i = 0; i < ost_level_unknowns(level); i++)
         assert_close(y[i], expected[i], 1e-12 * REACH * BLOCK);
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(expected);
+    OST_FREE(x, y, expected);
     ost_level_matrix_destroy(&level);
     ost_double_matrix_destroy(&band);
 }

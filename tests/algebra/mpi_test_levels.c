@@ -96,16 +96,12 @@ static void check_galerkin(const Setup *setup)
         const double energy = global_dot(owned(coarse), x, ax);
         assert_true(energy > 0.0);
         assert_close(global_dot(owned(fine), px, apx) / energy, 1.0, 1e-5); /* single precision */
-        OST_FREE(x);
-        OST_FREE(px);
-        OST_FREE(ax);
-        OST_FREE(apx);
+        OST_FREE(x, px, ax, apx);
     }
 }
 
 static void coarse_matrices_are_the_galerkin_products(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     check_galerkin(&s);
@@ -116,7 +112,6 @@ static void coarse_matrices_are_the_galerkin_products(void **state)
  * wall of one aggregate do not. A number that is given is kept. */
 static void aggregates_of_a_coarse_level_grow_with_its_rows(void **state)
 {
-    (void)state;
     const ElasticBlock solid = {.bricks = {15, 15, 15}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     const ElasticBlock wall = {.bricks = {40, 40, 1}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     for (int k = 0; k < 2 && ost_size(ctx) == 1; k++) {
@@ -132,7 +127,6 @@ static void aggregates_of_a_coarse_level_grow_with_its_rows(void **state)
 
 static void few_nodes_go_to_fewer_ranks(void **state)
 {
-    (void)state;
     const OstGlobal enough = OST_NODES_OF_RANK;
     assert_int_equal(ost_gathered_stride(100 * enough, 64, 1, 0), 1);
     assert_int_equal(ost_gathered_stride(40 * enough, 64, 1, 0), 1); /* not yet half as many */
@@ -147,7 +141,6 @@ static void few_nodes_go_to_fewer_ranks(void **state)
 /* About 60 nodes below 2500, and 8 below them. */
 static void gathered_levels_are_galerkin_products_too(void **state)
 {
-    (void)state;
     const ElasticBlock block = {.bricks = {12, 12, 14}, .size = {1, 1, 1}, .modulus = 3e5, .poisson = 0.3, .held = 1};
     const int stride = ost_size(ctx) == 4 ? 2 : 1;
     Setup s;
@@ -181,16 +174,12 @@ static double fit(const OstProlongator *p, size_t coarse_owned, const double *m,
             residual[i] -= step * image[i];
     }
     const double error = sqrt(global_dot(n, residual, residual) / global_dot(n, m, m));
-    OST_FREE(residual);
-    OST_FREE(gradient);
-    OST_FREE(direction);
-    OST_FREE(image);
+    OST_FREE(residual, gradient, direction, image);
     return error;
 }
 
 static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&free_block, &s);
     for (size_t mode = 0; mode < 6; mode++) {
@@ -203,8 +192,7 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
             ost_level_matrix_add(coarse, 1.0, c, ac);
             const double force = sqrt(global_dot(owned(coarse), ac, ac) / global_dot(owned(coarse), c, c));
             assert_true(force < 1e-5); /* the scaled matrix' largest eigenvalues are about 3 */
-            OST_FREE(m);
-            OST_FREE(ac);
+            OST_FREE(m, ac);
             m = c;
         }
         OST_FREE(m);
@@ -214,7 +202,6 @@ static void rigid_motions_pass_down_the_levels_and_cost_no_energy(void **state)
 
 static void the_smoother_is_symmetric_and_positive(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     for (int l = 0; l < 2; l++) {
@@ -227,17 +214,13 @@ static void the_smoother_is_symmetric_and_positive(void **state)
         const double xx = global_dot(owned(a), x, mx), yy = global_dot(owned(a), y, my);
         assert_true(xx > 0.0 && yy > 0.0);
         assert_close(global_dot(owned(a), x, my), global_dot(owned(a), y, mx), 1e-5 * sqrt(xx * yy));
-        OST_FREE(x);
-        OST_FREE(y);
-        OST_FREE(mx);
-        OST_FREE(my);
+        OST_FREE(x, y, mx, my);
     }
     tear_down(&s);
 }
 
 static void the_cycle_is_symmetric_and_positive(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     OstCycle *cycle = NULL;
@@ -255,17 +238,13 @@ static void the_cycle_is_symmetric_and_positive(void **state)
     const double of_half = global_dot(owned(a), x, mx) / xx;
     print_message("half a cycle: %.3f of the whole one's product\n", of_half);
     assert_true(of_half > 0.0);
-    OST_FREE(x);
-    OST_FREE(y);
-    OST_FREE(mx);
-    OST_FREE(my);
+    OST_FREE(x, y, mx, my);
     ost_cycle_destroy(&cycle);
     tear_down(&s);
 }
 
 static void the_coarsest_level_is_solved_exactly(void **state)
 {
-    (void)state;
     Setup s;
     set_up(&held_block, &s);
     const OstLevelMatrix *a = s.levels.matrix[s.levels.count - 1];
@@ -276,8 +255,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     const double size = global_dot(owned(a), b, b);
     ost_level_matrix_add(a, -1.0, x, b);
     assert_true(sqrt(global_dot(owned(a), b, b) / size) < 1e-4); /* the product is in single precision */
-    OST_FREE(b);
-    OST_FREE(x);
+    OST_FREE(b, x);
     ost_coarsest_destroy(&coarsest);
     tear_down(&s);
 }

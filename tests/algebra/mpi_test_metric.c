@@ -30,7 +30,6 @@ static double *new_solution(const ElasticProblem *problem)
 
 static void an_isotropic_block_takes_few_iterations_at_any_size(void **state)
 {
-    (void)state;
     for (int n = 10; n <= 20; n += 10) {
         const ElasticBlock block = {.bricks = {n, n, n}, .size = {1, 1, 1}, .modulus = 2e11, .poisson = 0.3, .held = 1};
         ElasticProblem problem;
@@ -52,7 +51,6 @@ static void an_isotropic_block_takes_few_iterations_at_any_size(void **state)
 
 static void answer_and_effort_do_not_depend_on_the_ranks(void **state)
 {
-    (void)state;
     const ElasticBlock block = {
         .bricks = {12, 10, 14}, .size = {1, 1, 1.2}, .modulus = 1e6, .poisson = 0.3, .contrast = 50.0, .held = 1};
     OstContext *alone = NULL;
@@ -72,8 +70,7 @@ static void answer_and_effort_do_not_depend_on_the_ranks(void **state)
     assert_true(largest > 0.0);
     assert_true(difference <= 1e-9 * largest);
     assert_true(report.iterations <= 1.3 * report_alone.iterations);
-    OST_FREE(u);
-    OST_FREE(u_alone);
+    OST_FREE(u, u_alone);
     elastic_destroy(&shared);
     elastic_destroy(&whole);
     ost_context_destroy(&alone);
@@ -81,7 +78,6 @@ static void answer_and_effort_do_not_depend_on_the_ranks(void **state)
 
 static void a_rank_without_rows_does_no_harm(void **state)
 {
-    (void)state;
     /* two free layers of nodes for up to four ranks */
     const ElasticBlock block = {.bricks = {20, 20, 2}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     ElasticProblem problem;
@@ -97,7 +93,6 @@ static void a_rank_without_rows_does_no_harm(void **state)
 
 static void a_matrix_below_the_coarsest_size_is_solved_directly(void **state)
 {
-    (void)state;
     const ElasticBlock block = {.bricks = {2, 2, 2}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     ElasticProblem problem;
     OstSolveReport report;
@@ -113,7 +108,6 @@ static void a_matrix_below_the_coarsest_size_is_solved_directly(void **state)
 
 static void a_matrix_of_one_row_is_solved(void **state)
 {
-    (void)state;
     const int mine = ost_rank(ctx) == ost_size(ctx) - 1;
     OstLocal row_start[2] = {0, 1}, column[1] = {0}, diagonal[1] = {0};
     OstGlobal label[1] = {0};
@@ -181,7 +175,6 @@ static OstBlockMatrix *springs(OstLocal parts, OstLocal chain, double *coordinat
 
 static void parts_too_small_to_aggregate_are_solved_by_the_smoother(void **state)
 {
-    (void)state;
     for (int chain = 0; chain <= 600; chain += 600) {
         double coordinates[3 * 3600] = {0}, force[3 * 3600], u[3 * 3600], modes[18 * 3600];
         const double about[3] = {0, 0, 0};
@@ -202,7 +195,6 @@ static void parts_too_small_to_aggregate_are_solved_by_the_smoother(void **state
 
 static void a_bad_metric_is_refused_on_all_ranks(void **state)
 {
-    (void)state;
     const ElasticBlock block = {.bricks = {3, 3, 8}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
     ElasticProblem problem;
     OstSolveReport report;
@@ -215,8 +207,7 @@ static void a_bad_metric_is_refused_on_all_ranks(void **state)
     problem.geometry.metric = metric;
     double *u = new_solution(&problem);
     assert_failure(solve(ctx, &problem, 1e-8, u, &report), OST_INVALID_INPUT, "metric at node 100");
-    OST_FREE(u);
-    OST_FREE(metric);
+    OST_FREE(u, metric);
     elastic_destroy(&problem);
 }
 

@@ -65,7 +65,6 @@ static OstMlCycle *new_cycle(Scalar *scalar)
 
 static void every_level_between_is_visited_twice_with_fixed_weights(void **state)
 {
-    (void)state;
     Scalar scalar[LEVELS] = {{.a = 2.0}, {.a = 1.1}, {.a = 0.9}, {.a = 1.25, .is_last = 1}};
     OstMlCycle *cycle = new_cycle(scalar);
     double r[LEVELS] = {-2.0, 1.0, 3.5, 0.5}, z[LEVELS];
@@ -85,7 +84,6 @@ static void every_level_between_is_visited_twice_with_fixed_weights(void **state
 
 static void half_a_cycle_smooths_the_finest_level_once_and_visits_the_others_once(void **state)
 {
-    (void)state;
     Scalar scalar[LEVELS] = {{.a = 2.0}, {.a = 1.1}, {.a = 0.9}, {.a = 1.25, .is_last = 1}};
     OstMlCycle *cycle = new_cycle(scalar);
     double r[LEVELS] = {-2.0, 1.0, 3.5, 0.5}, whole[LEVELS], half[LEVELS];
@@ -105,7 +103,6 @@ static void half_a_cycle_smooths_the_finest_level_once_and_visits_the_others_onc
 
 static void a_failure_inside_comes_back(void **state)
 {
-    (void)state;
     Scalar scalar[LEVELS] = {
         {.a = 2.0}, {.a = 1.1}, {.a = 0.9, .failure = OST_LIBRARY_FAILED}, {.a = 1.0, .is_last = 1}};
     OstMlCycle *cycle = new_cycle(scalar);
@@ -117,7 +114,6 @@ static void a_failure_inside_comes_back(void **state)
 /* ML would end the process. */
 static void a_level_that_is_no_smaller_is_refused(void **state)
 {
-    (void)state;
     Scalar scalar[2] = {{.a = 2.0, .unknowns = 2}, {.a = 1.0, .unknowns = 2, .is_last = 1}};
     OstMlLevel level[2];
     OstMlCycle *cycle = NULL;

@@ -32,14 +32,12 @@ static double shift_of(double coupling)
 
 static void what_is_definite_is_factored_as_it_is(void **state)
 {
-    (void)state;
     assert_true(shift_of(0.0) == 0.0);
     assert_true(shift_of(1.0 - 1e-13) == 0.0);
 }
 
 static void what_rounding_made_singular_or_indefinite_is_shifted_by_little(void **state)
 {
-    (void)state;
     const double beyond[] = {0.0, DBL_EPSILON, 1e-14, 1e-13};
     for (int k = 0; k < 4; k++) {
         const double shift = shift_of(1.0 + beyond[k]);
@@ -50,7 +48,6 @@ static void what_rounding_made_singular_or_indefinite_is_shifted_by_little(void 
 /* The factors are of the shifted matrix: (1 + s) u0 - u1 = 1, (1 + s) u1 - u0 = 1. */
 static void the_factors_are_those_of_the_shifted_matrix(void **state)
 {
-    (void)state;
     ElasticProblem problem = coupled(-1.0);
     OstMumps *factors = NULL;
     double shift, *u = NULL;
@@ -68,7 +65,6 @@ static void the_factors_are_those_of_the_shifted_matrix(void **state)
 
 static void nothing_is_shifted_unasked(void **state)
 {
-    (void)state;
     ElasticProblem problem = coupled(1.0 + DBL_EPSILON);
     OstMumps *factors = NULL;
     assert_failure(ost_mumps_create_of_rows(problem.matrix, NULL, 0.0, NULL, &factors), OST_NOT_CONVERGED,
@@ -78,7 +74,6 @@ static void nothing_is_shifted_unasked(void **state)
 
 static void what_no_rounding_explains_is_refused(void **state)
 {
-    (void)state;
     const double beyond[] = {1e-11, 1.0};
     for (int k = 0; k < 2; k++) {
         ElasticProblem problem = coupled(1.0 + beyond[k]);

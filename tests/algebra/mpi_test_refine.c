@@ -41,7 +41,6 @@ static double refined(double share, double settled, OstGoal *goal)
 
 static void the_residual_asked_for_is_enough_where_nothing_else_is(void **state)
 {
-    (void)state;
     OstGoal goal;
     assert_close(refined(0.7, 0.0, &goal), 0.3, 1e-15);
     assert_int_equal(goal.iterations, 1);
@@ -51,7 +50,6 @@ static void the_residual_asked_for_is_enough_where_nothing_else_is(void **state)
 
 static void u_is_refined_until_it_has_settled(void **state)
 {
-    (void)state;
     OstGoal goal;
     const double missing = refined(0.7, 1e-3, &goal); /* corrections of 0.7 × 0.3^k */
     assert_close(missing, pow(0.3, 7), 1e-15);
@@ -62,7 +60,6 @@ static void u_is_refined_until_it_has_settled(void **state)
 /* A strategy that takes over may begin with a correction that is small, and right. */
 static void a_small_first_correction_is_no_drift(void **state)
 {
-    (void)state;
     OstGoal goal;
     const double missing = refined(1.0, 2.0, &goal); /* from 0, so the correction is as large as u */
     assert_close(missing, 0.0, 1e-15);
@@ -73,7 +70,6 @@ static void a_small_first_correction_is_no_drift(void **state)
 /* Each correction is 0.95 of the one before: too slow, and what would follow is 19 times the last. */
 static void what_does_not_settle_is_told_by_its_drift(void **state)
 {
-    (void)state;
     OstGoal goal;
     const double missing = refined(0.05, 1e-3, &goal);
     assert_true(goal.norm <= goal.target || goal.end == OST_END_STALLED);
@@ -92,7 +88,6 @@ static OstStatus miss_the_soft_mode(void *data, const double *r, double *u, OstG
 /* Refinement by such factors alone diverges by 1.75 a step, and the residual shows only the rounding of u. */
 static void cg_finds_the_soft_mode_that_factors_miss(void **state)
 {
-    (void)state;
     ElasticProblem problem = bar_with_pair();
     OstSolverOptions options = ost_solver_default_options();
     double *u = NULL, expected[2];
@@ -123,7 +118,6 @@ static OstStatus miss_many_modes(void *data, const double *r, double *u, OstGoal
 /* CG takes nine steps, of which three in a row gain nothing. */
 static void cg_finds_the_many_modes_that_factors_miss(void **state)
 {
-    (void)state;
     ElasticProblem problem = bar_with_pair();
     OstSolverOptions options = ost_solver_default_options();
     double *u = NULL;

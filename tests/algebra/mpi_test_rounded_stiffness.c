@@ -28,8 +28,7 @@ static Rounded make(void)
 static void destroy(Rounded *rounded)
 {
     elastic_destroy(&rounded->problem);
-    OST_FREE(rounded->u);
-    OST_FREE(rounded->force);
+    OST_FREE(rounded->u, rounded->force);
 }
 
 /* Something of every mode, the same on any ranks; `kind` of many. */
@@ -66,7 +65,6 @@ static double work_of(const Rounded *rounded, int kind)
 /* Both entries of a pair are one number, on whichever ranks they are: v·(K' - K) u = u·(K' - K) v. */
 static void a_rounded_stiffness_is_symmetric(void **state)
 {
-    (void)state;
     Rounded rounded = make();
     for (int which = 0; which < 5; which++) {
         throw_at_wave(&rounded, 0, which);
@@ -129,7 +127,6 @@ static void add_signs(Signs block, int is_diagonal, double sum[2], double count[
 /* The sums stay within five standard errors of 0; the two signs of a pair are one. */
 static void every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down(void **state)
 {
-    (void)state;
     enum { THROWS = 16 };
     Rounded rounded = make();
     const OstBlockMatrix *matrix = rounded.problem.matrix;
@@ -150,7 +147,6 @@ static void every_entry_is_off_by_half_an_epsilon_of_itself_up_or_down(void **st
 
 static void throws_differ(void **state)
 {
-    (void)state;
     Rounded rounded = make();
     const size_t n = 3 * (size_t)rounded.problem.matrix->rows;
     double *first = NULL, product = 0.0, square = 0.0;
@@ -172,7 +168,6 @@ static void throws_differ(void **state)
 /* Signs of a row's terms that are independent add up, in the mean square, to the root of the sum of their squares. */
 static void entries_of_a_row_are_rounded_independently(void **state)
 {
-    (void)state;
     enum { THROWS = 64 };
     Rounded rounded = make();
     const size_t n = 3 * (size_t)rounded.problem.matrix->rows;
@@ -195,7 +190,6 @@ static void entries_of_a_row_are_rounded_independently(void **state)
 /* On this rank alone and on all of them, of the same labels. */
 static void signs_do_not_depend_on_ranks(void **state)
 {
-    (void)state;
     OstContext *world = ctx;
     double work[2];
     for (int alone = 0; alone < 2; alone++) {
@@ -213,7 +207,6 @@ static void signs_do_not_depend_on_ranks(void **state)
 
 static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
 {
-    (void)state;
     OstSamples samples = {0, 0.0};
     ost_samples_add(&samples, 3.0);
     ost_samples_add(&samples, 4.0);
@@ -224,7 +217,6 @@ static void sizes_are_told_by_the_root_of_their_mean_square(void **state)
 /* Three standard errors are 75 % of the size with 8 samples (3/sqrt(2·8)), 37.5 % with 32. */
 static void more_samples_are_called_for_near_the_limit(void **state)
 {
-    (void)state;
     OstSamples samples = {7, 7 * 100.0};
     assert_true(ost_samples_undecided(&samples, 1.0, 8, 32)); /* too few, whatever they say */
     const double decided[] = {0.24, 1.76, (double)NAN, (double)INFINITY}, undecided[] = {0.26, 1.0, 1.74};
@@ -242,7 +234,6 @@ static void more_samples_are_called_for_near_the_limit(void **state)
 
 static void what_is_surely_beyond_is_three_standard_errors_beyond(void **state)
 {
-    (void)state;
     assert_false(ost_surely_beyond(0.1, 0.0, 0.1));
     assert_true(ost_surely_beyond(0.1001, 0.0, 0.1));
     assert_false(ost_surely_beyond(0.129, 0.1, 0.1));

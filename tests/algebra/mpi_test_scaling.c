@@ -11,7 +11,6 @@ static const ElasticBlock uneven = {
 
 static void diagonal_blocks_become_identities(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -43,7 +42,6 @@ static void multiply_scaled(const OstScaling *scaling, const OstBlockMatrix *mat
 /* A' u' = S (A (S^T u')), in which the ghosts' S must be the owners'. */
 static void the_scaled_blocks_are_those_of_the_factors(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -63,16 +61,13 @@ static void the_scaled_blocks_are_those_of_the_factors(void **state)
     ost_scaling_to_scaled(scaling, y[1], y[1]);
     for (size_t i = 0; i < n; i++)
         assert_close(y[0][i], y[1][i], 1e-12);
-    OST_FREE(x);
-    OST_FREE(y[0]);
-    OST_FREE(y[1]);
+    OST_FREE(x, y[0], y[1]);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }
 
 static void scaling_there_and_back_changes_nothing(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstScaling *scaling = NULL;
     assert_success(elastic_create(ctx, &uneven, &problem));
@@ -95,15 +90,13 @@ static void scaling_there_and_back_changes_nothing(void **state)
     ost_scaling_from_scaled(scaling, there, back);
     for (size_t i = 0; i < n; i++)
         assert_close(back[i], f[i], 1e-13);
-    OST_FREE(there);
-    OST_FREE(back);
+    OST_FREE(there, back);
     ost_scaling_destroy(&scaling);
     elastic_destroy(&problem);
 }
 
 static void a_block_that_is_not_definite_is_refused_by_its_global_row(void **state)
 {
-    (void)state;
     const double bad[2] = {-1.0, NAN};
     for (int k = 0; k < 2; k++) {
         ElasticProblem problem;

@@ -63,14 +63,12 @@ static double true_residual(const ElasticProblem *problem, const double *u)
     for (size_t i = 0; i < n; i++)
         r[i] -= problem->force[i];
     const double residual = norm_over_ranks(n, r) / norm_over_ranks(n, problem->force);
-    OST_FREE(x);
-    OST_FREE(r);
+    OST_FREE(x, r);
     return residual;
 }
 
 static void every_method_reaches_the_requested_true_residual(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     for (int k = 0; k < METHODS; k++) {
@@ -120,7 +118,6 @@ static void solve_dense(OstContext *alone, const ElasticProblem *problem, double
 /* Also with more ranks than layers of nodes, so that a rank has no rows. */
 static void every_method_agrees_with_dense_cholesky_on_any_number_of_ranks(void **state)
 {
-    (void)state;
     OstContext *alone = NULL;
     ElasticProblem shared;
     ElasticProblem whole;
@@ -155,7 +152,6 @@ static void every_method_agrees_with_dense_cholesky_on_any_number_of_ranks(void 
 
 static void six_modes_take_fewer_iterations_than_three_translations(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report[2];
     const OstSolverOptions options = options_for(OST_METHOD_PLAIN, 1e-10);
@@ -172,7 +168,6 @@ static void six_modes_take_fewer_iterations_than_three_translations(void **state
 
 static void the_report_tells_what_was_done(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     const OstGlobal unknowns = 3 * problem.matrix->global_rows;
@@ -207,7 +202,6 @@ static void the_report_tells_what_was_done(void **state)
 
 static void a_coarsest_level_of_thousands_is_solved_directly(void **state)
 {
-    (void)state;
     ElasticBlock large = column;
     ElasticProblem problem;
     large.bricks[2] = 40;
@@ -239,7 +233,6 @@ static ElasticProblem single_row(void)
 
 static void one_row_is_enough(void **state)
 {
-    (void)state;
     ElasticProblem problem = single_row();
     for (int k = 0; k < METHODS; k++) {
         const OstSolverOptions options = options_for(methods[k], 1e-12);
@@ -260,7 +253,6 @@ static void one_row_is_enough(void **state)
 
 static void nothing_to_solve_is_solved(void **state)
 {
-    (void)state;
     ElasticBlock nothing = slab;
     ElasticProblem problem;
     nothing.bricks[2] = 0;
@@ -279,7 +271,6 @@ static void nothing_to_solve_is_solved(void **state)
 
 static void no_force_gives_no_displacement(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     memset(problem.force, 0, 3 * (size_t)problem.matrix->rows * sizeof *problem.force);
@@ -297,7 +288,6 @@ static void no_force_gives_no_displacement(void **state)
 
 static void one_solver_solves_for_many_forces(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     const size_t n = 3 * (size_t)problem.matrix->rows;
@@ -341,7 +331,6 @@ static void assert_not_converged(const ElasticProblem *problem, OstMethod method
 
 static void a_body_afloat_is_refused(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &afloat, &problem));
     /* Rounding decides which sign its softest modes have. */
@@ -353,7 +342,6 @@ static void a_body_afloat_is_refused(void **state)
 
 static void an_indefinite_matrix_is_refused(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &column, &problem));
     OstBlockMatrix *matrix = problem.matrix;
@@ -368,7 +356,6 @@ static void an_indefinite_matrix_is_refused(void **state)
 
 static void a_row_without_stiffness_is_refused_by_its_number(void **state)
 {
-    (void)state;
     ElasticProblem problem = single_row();
     for (OstLocal i = 0; i < problem.matrix->rows; i++)
         problem.matrix->value[8] = 0.0;
@@ -384,7 +371,6 @@ static void a_row_without_stiffness_is_refused_by_its_number(void **state)
 
 static void options_out_of_range_are_refused_by_name(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolver *solver = NULL;
     assert_success(elastic_create(ctx, &slab, &problem));
@@ -407,7 +393,6 @@ static void options_out_of_range_are_refused_by_name(void **state)
 /* New values on the same pattern: with the hierarchy kept as with a new one, the solution is that of the new matrix. */
 static void new_values_are_solved_with(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
         for (OstSolverUpdate how = OST_UPDATE_REBUILD; how <= OST_UPDATE_KEEP; how++) {
             ElasticProblem problem;
@@ -429,8 +414,7 @@ static void new_values_are_solved_with(void **state)
             for (size_t i = 0; i < n; i++)
                 assert_close(3.0 * u[i], first[i], 1e-6 * (1.0 + fabs(first[i])));
             ost_solver_destroy(&solver);
-            OST_FREE(u);
-            OST_FREE(first);
+            OST_FREE(u, first);
             elastic_destroy(&problem);
         }
 }

@@ -90,7 +90,6 @@ static double *reference(const ElasticProblem *problem)
 
 static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -111,15 +110,13 @@ static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
     assert_int_equal(report.method, report.step[report.steps - 1].method);
     assert_true(report.relative_residual <= 1e-10);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
 /* With the smoother given, only a factorisation helps; the solver gets there. */
 static void given_parameters_are_left_alone_up_to_the_top(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -135,14 +132,12 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     assert_int_equal(report.step[3].method, OST_METHOD_DIRECT);
     assert_in_range(report.step[3].iterations, 1, 3);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
 static void a_chosen_method_is_never_changed(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -162,7 +157,6 @@ static void a_chosen_method_is_never_changed(void **state)
 
 static void the_next_strategy_starts_from_what_was_reached(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -187,7 +181,6 @@ static void the_next_strategy_starts_from_what_was_reached(void **state)
 
 static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -203,7 +196,6 @@ static void a_factorisation_that_does_not_fit_is_refused_before_it_begins(void *
 /* If memory does not allow factors, the fastest strategy goes on, without patience. */
 static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     double *metric = NULL;
     OstSolveReport report;
@@ -224,14 +216,12 @@ static void without_memory_for_factors_the_fastest_strategy_goes_on(void **state
     options.max_iterations = 130; /* and if that is not enough, all that was tried is told */
     assert_failure(create_and_solve(&problem, &options, u, &report), OST_NOT_CONVERGED, "Tried: metric (4");
     assert_non_null(strstr(ost_error_text(ctx), "direct (0 iterations): factoring"));
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     destroy_misled(&problem, &metric);
 }
 
 static void no_other_strategy_is_tried_against_rounding(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -255,7 +245,6 @@ static void no_other_strategy_is_tried_against_rounding(void **state)
 
 static void an_indefinite_matrix_never_passes(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     OstSolveReport report;
     assert_success(elastic_create(ctx, &hard, &problem));
@@ -276,7 +265,6 @@ static void an_indefinite_matrix_never_passes(void **state)
 /* Powers of two, so that nothing is rounded otherwise: all the same but for the exponent. */
 static void units_make_no_difference(void **state)
 {
-    (void)state;
     ElasticProblem problem;
     assert_success(elastic_create(ctx, &hard, &problem));
     const OstBlockMatrix *matrix = problem.matrix;
@@ -303,15 +291,13 @@ static void units_make_no_difference(void **state)
             assert_true(difference(&problem, u[1], u[0]) < 1e-9);
         }
     }
-    OST_FREE(u[0]);
-    OST_FREE(u[1]);
+    OST_FREE(u[0], u[1]);
     elastic_destroy(&problem);
 }
 
 /* A coarse matrix beyond what every rank would factor for itself is MUMPS's. */
 static void a_large_coarse_level_is_factored(void **state)
 {
-    (void)state;
     ElasticBlock large = hard;
     ElasticProblem problem;
     OstSolveReport report;
@@ -327,8 +313,7 @@ static void a_large_coarse_level_is_factored(void **state)
     assert_int_equal(report.levels, 2);
     assert_true(report.level_unknowns[1] > 4096);
     assert_true(difference(&problem, u, expected) < 1e-6);
-    OST_FREE(u);
-    OST_FREE(expected);
+    OST_FREE(u, expected);
     elastic_destroy(&problem);
 }
 

@@ -63,7 +63,6 @@ static double misalignment(const double w[6])
  * 1 + (s - 1) e eᵀ is s along e, and 1 across. */
 static void edges_off_the_stiff_directions_are_noticed(void **state)
 {
-    (void)state;
     const double stiff = 0.03, c = cos(0.4), s = sin(0.4), drop = stiff - 1.0;
     assert_close(misalignment((double[6]){1, 1, 1, 0, 0, 0}), 1.0, 1e-12);
     assert_close(misalignment((double[6]){stiff, 1, 1, 0, 0, 0}), 1.0, 1e-12);
@@ -78,7 +77,6 @@ static void edges_off_the_stiff_directions_are_noticed(void **state)
 /* A metric that shortens z a hundredfold makes a plate of the cube. */
 static void flat_bricks_at_the_surface_are_noticed(void **state)
 {
-    (void)state;
     double flatness[3];
     const double squares[3] = {1.0, 1e-2, 1e-4};
     for (int k = 0; k < 3; k++) {
@@ -95,7 +93,6 @@ static void flat_bricks_at_the_surface_are_noticed(void **state)
  * aggregates and in blocks. */
 static void the_two_sides_of_a_flat_layer_stay_together(void **state)
 {
-    (void)state;
     const double targets[] = {7.0, 40.0};
     const OstLocal plane = 18 * 18;
     ElasticProblem problem;
@@ -122,7 +119,6 @@ static void the_two_sides_of_a_flat_layer_stay_together(void **state)
 
 static void every_node_is_in_one_aggregate_and_sizes_meet_the_target(void **state)
 {
-    (void)state;
     const double targets[] = {7.0, 40.0};
     OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, 1.0});
     for (int t = 0; t < 2; t++) {
@@ -147,7 +143,6 @@ static void every_node_is_in_one_aggregate_and_sizes_meet_the_target(void **stat
 
 static void aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis(void **state)
 {
-    (void)state;
     /* √(E_min/E_x) with E_x 64 times as stiff: 1/8; the metric's unit ball is √8 long along x */
     const double w[3] = {0.125, 1.0, 1.0};
     const OstAggregateShape shape = {.target = 40.0, .minimum = 3, .recentrings = 2};
@@ -196,7 +191,6 @@ static OstMetricGraph *paths_graph(const OstLocal length[3])
 
 static void parts_too_small_for_the_modes_are_left_to_the_smoother(void **state)
 {
-    (void)state;
     OstMetricGraph *graph = paths_graph((OstLocal[3]){2, 30, 1});
     const OstAggregateShape shape = {.target = 5.0, .minimum = 3, .recentrings = 2};
     OstAggregates *aggregates = NULL;
@@ -220,7 +214,6 @@ static int is_third(OstLocal node)
 /* Every third brick's first node of the cube has no edges left, as the nodes within small soft fields. */
 static void small_parts_do_not_change_the_size_of_the_other_aggregates(void **state)
 {
-    (void)state;
     const OstAggregateShape shape = {.target = 40.0, .minimum = 3, .recentrings = 2};
     OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, 1.0});
     OstAggregates *aggregates = NULL;
@@ -244,7 +237,6 @@ static void small_parts_do_not_change_the_size_of_the_other_aggregates(void **st
 
 static void every_part_has_its_own_aggregates(void **state)
 {
-    (void)state;
     OstMetricGraph *graph = paths_graph((OstLocal[3]){3, 4, 1});
     const OstAggregateShape shape = {.target = 40.0, .minimum = 1, .recentrings = 1};
     OstAggregates *aggregates = NULL;
@@ -258,7 +250,6 @@ static void every_part_has_its_own_aggregates(void **state)
 
 static void the_coarse_graph_joins_aggregates_that_touch(void **state)
 {
-    (void)state;
     OstMetricGraph *graph = paths_graph((OstLocal[3]){6, 2, 1});
     OstMetricGraph *coarse = NULL;
     OstLocal of_node[9] = {0, 0, 1, 1, 1, 2, 3, 3, -1};
@@ -281,7 +272,6 @@ static void the_coarse_graph_joins_aggregates_that_touch(void **state)
 
 static void a_metric_that_measures_nothing_is_refused(void **state)
 {
-    (void)state;
     const ElasticBlock brick = {.bricks = {1, 1, 1}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3};
     const double wrong[3][6] = {{1, 1, 0, 0, 0, 0}, {1, 1, 1, 2, 0, 0}, {1, 1, NAN, 0, 0, 0}};
     ElasticProblem problem;

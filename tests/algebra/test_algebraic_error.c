@@ -126,27 +126,23 @@ static void stays_within(double (*value)(int), double (*solution)(int), double l
 
 static void with_a_good_preconditioner_the_error_is_known_to_a_factor_of_two(void **state)
 {
-    (void)state;
     stays_within(clustered, one, 1e-6, 0.5, 2.0, 1.0);
 }
 
 /* It is too large for some steps once the last one is found and convergence becomes fast. */
 static void while_small_eigenvalues_are_found_it_is_no_smaller_than_a_third(void **state)
 {
-    (void)state;
     stays_within(with_outliers, one, 1e-6, 1.0 / 3.0, 40.0, 0.7);
     stays_within(with_outliers, soft, 1e-6, 1.0 / 3.0, 40.0, 0.7);
 }
 
 static void of_a_spectrum_over_four_decades_too(void **state)
 {
-    (void)state;
     stays_within(spread_out, one, 1e-2, 1.0 / 3.0, 7.0, 0.8);
 }
 
 static void the_rate_foretells_the_next_steps(void **state)
 {
-    (void)state;
     Run *run = begin(clustered, one);
     OstAlgebraicError error;
     for (int k = 0; k < 4; k++)
@@ -162,7 +158,6 @@ static void the_rate_foretells_the_next_steps(void **state)
 
 static void two_steps_tell_too_little_and_the_estimate_says_so(void **state)
 {
-    (void)state;
     Run *run = begin(with_outliers, one);
     OstAlgebraicError error;
     step(run);

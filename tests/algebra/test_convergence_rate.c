@@ -5,7 +5,6 @@
 
 static void a_steady_fall_is_projected(void **state)
 {
-    (void)state;
     OstConvergence convergence;
     ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 50; k++)
@@ -18,7 +17,6 @@ static void a_steady_fall_is_projected(void **state)
 
 static void two_windows_are_waited_for(void **state)
 {
-    (void)state;
     OstConvergence convergence;
     ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k < 2 * OST_CONVERGENCE_WINDOW; k++) {
@@ -32,7 +30,6 @@ static void two_windows_are_waited_for(void **state)
 /* Thin bodies: the residual rises by orders before it falls, while the energy falls all along. */
 static void a_rising_residual_is_forgiven_while_the_energy_falls(void **state)
 {
-    (void)state;
     OstConvergence convergence;
     ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 60; k++)
@@ -44,7 +41,6 @@ static void a_rising_residual_is_forgiven_while_the_energy_falls(void **state)
 /* Only the last window counts: what was fast once may stand still now. */
 static void a_standstill_after_a_fast_start_is_seen(void **state)
 {
-    (void)state;
     OstConvergence convergence;
     ost_convergence_start(&convergence, 1.0);
     for (int k = 1; k <= 60; k++) {

@@ -38,14 +38,12 @@ static double condition_after(int n, const double *values, int steps)
 
 static void as_many_steps_as_eigenvalues_give_the_condition_number(void **state)
 {
-    (void)state;
     const double values[] = {0.5, 1.0, 3.0, 7.0, 20.0};
     assert_close(condition_after(5, values, 5), 40.0, 1e-8);
 }
 
 static void fewer_steps_give_a_lower_bound(void **state)
 {
-    (void)state;
     double values[64];
     double before = 1.0;
     for (int i = 0; i < 64; i++)
@@ -60,7 +58,6 @@ static void fewer_steps_give_a_lower_bound(void **state)
 
 static void no_steps_give_no_estimate_and_one_gives_1(void **state)
 {
-    (void)state;
     const double values[] = {4.0, 9.0};
     assert_close(condition_after(2, values, 0), 0.0, 0.0);
     assert_close(condition_after(2, values, 1), 1.0, 1e-10);

@@ -22,7 +22,6 @@ static int has_reason(const OstSolverPlan *plan, const char *text)
 
 static void few_unknowns_are_factored(void **state)
 {
-    (void)state;
     const OstSolverFacts facts = {.unknowns = 2999, .anisotropy = 1e6};
     const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &facts);
     assert_int_equal(plan.first, OST_METHOD_DIRECT);
@@ -32,7 +31,6 @@ static void few_unknowns_are_factored(void **state)
 
 static void a_factorisation_that_does_not_fit_is_not_begun_with(void **state)
 {
-    (void)state;
     const OstSolverFacts facts = {.unknowns = 882, .anisotropy = 1.0};
     OstSolverOptions options = ost_solver_default_options();
     OstSolverPlan plan;
@@ -55,7 +53,6 @@ static void a_factorisation_that_does_not_fit_is_not_begun_with(void **state)
 
 static void the_metric_comes_first_whatever_the_ratio(void **state)
 {
-    (void)state;
     OstSolverFacts facts = {.unknowns = 74340, .anisotropy = 1e3};
     OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &facts);
     assert_int_equal(plan.first, OST_METHOD_METRIC);
@@ -68,7 +65,6 @@ static void the_metric_comes_first_whatever_the_ratio(void **state)
 
 static void what_the_case_asks_for_is_planned(void **state)
 {
-    (void)state;
     const OstSolverFacts facts = {.unknowns = 100, .anisotropy = 1e6};
     for (OstMethod method = OST_METHOD_PLAIN; method <= OST_METHOD_DIRECT; method++) {
         const OstSolverPlan plan = plan_of(method, &facts);
@@ -79,7 +75,6 @@ static void what_the_case_asks_for_is_planned(void **state)
 
 static void trouble_is_foretold(void **state)
 {
-    (void)state;
     const OstSolverFacts easy = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.3, .contrast = 1.0, .quality = 0.5};
     assert_int_equal(plan_of(OST_METHOD_AUTO, &easy).reasons, 1);
     const OstSolverFacts hard = {
@@ -98,7 +93,6 @@ static void trouble_is_foretold(void **state)
 
 static void near_incompressibility_asks_for_small_aggregates_unless_the_case_says_otherwise(void **state)
 {
-    (void)state;
     const OstSolverOptions usual = ost_solver_default_options();
     OstSolverFacts facts = {.unknowns = 10000, .anisotropy = 1.0, .poisson = 0.45};
     OstSolverPlan plan = plan_of(OST_METHOD_METRIC, &facts);
@@ -123,7 +117,6 @@ static void near_incompressibility_asks_for_small_aggregates_unless_the_case_say
 /* 9,228 to 151,611 unknowns of spindles and brackets, measured (docs/performance.md). */
 static void thin_quadratic_bodies_off_the_axes_are_factored_and_no_others(void **state)
 {
-    (void)state;
     const OstSolverFacts thin = {
         .unknowns = 55125, .anisotropy = 1e3, .poisson = 0.3, .thickness = 4.7, .misalignment = 3.0};
     const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &thin);
@@ -151,7 +144,6 @@ static void thin_quadratic_bodies_off_the_axes_are_factored_and_no_others(void *
  * the thickest, stopped early multigrid is from 50,000 on; below, both take as long (docs/performance.md). */
 static void the_quicker_of_factors_and_multigrid_is_planned(void **state)
 {
-    (void)state;
     static const struct {
         OstGlobal unknowns;
         double thickness;

@@ -52,6 +52,17 @@ static inline OstMesh *make_body(OstContext *of)
     return mesh;
 }
 
+/* The same, or with quadratic tets. */
+static inline OstMesh *make_body_of(int order)
+{
+    OstMesh *linear = make_body(ctx), *quadratic = NULL;
+    if (order == 1)
+        return linear;
+    assert_success(ost_mesh_raise(linear, NULL, &quadratic));
+    ost_mesh_destroy(&linear);
+    return quadratic;
+}
+
 /* A strongly orthotropic material, or an isotropic one that does not know that it is. */
 static inline OstMaterial make_material(OstContext *of, int orthotropic)
 {
@@ -117,6 +128,21 @@ static inline double largest(OstContext *of, OstLocal count, const double *a)
         size = fmax(size, fabs(a[i]));
     MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, ost_comm(of));
     return size;
+}
+
+/* Sum of force, and of moment about the origin, over owned nodes of all ranks. */
+static inline void resultant(const OstMesh *mesh, const double *force, double sum[6])
+{
+    memset(sum, 0, 6 * sizeof *sum);
+    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
+        double moment[3];
+        ost_cross3(mesh->coordinates + 3 * node, force + 3 * node, moment);
+        for (int i = 0; i < 3; i++) {
+            sum[i] += force[3 * node + i];
+            sum[3 + i] += moment[i];
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
 }
 
 static inline double *numbers(size_t count)

@@ -42,7 +42,6 @@ static void check_symmetry(double at)
 
 static void rows_of_all_ranks_fit_together(void **state)
 {
-    (void)state;
     check_symmetry(0.5);
     check_symmetry(1.0);
     check_symmetry(1.5);

@@ -25,7 +25,6 @@ static OstSupports *hold_potentials(const OstMesh *mesh)
 
 static void potentials_between_parallel_faces_are_linear(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     OstSupports *supports = hold_potentials(mesh);
     OstSystem *system = NULL;

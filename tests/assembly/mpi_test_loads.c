@@ -33,21 +33,6 @@ static void faces_of(const OstMesh *mesh, const char *name, OstLocal *count, Ost
         (*faces)[i] = (OstLocal)boundary->nodes[i];
 }
 
-/* Sum of force, and of moment about the origin, over owned nodes of all ranks. */
-static void resultant(const OstMesh *mesh, const double *force, double sum[6])
-{
-    memset(sum, 0, 6 * sizeof *sum);
-    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
-        double moment[3];
-        ost_cross3(mesh->coordinates + 3 * node, force + 3 * node, moment);
-        for (int i = 0; i < 3; i++) {
-            sum[i] += force[3 * node + i];
-            sum[3 + i] += moment[i];
-        }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-}
-
 static void assert_resultant(const OstMesh *mesh, const double *force, const double expected[6])
 {
     double sum[6];
@@ -58,7 +43,6 @@ static void assert_resultant(const OstMesh *mesh, const double *force, const dou
 
 static void a_traction_has_the_force_and_moment_of_its_faces(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_tube(ctx);
     OstLocal count;
     OstLocal *faces;
@@ -79,7 +63,6 @@ static void a_traction_has_the_force_and_moment_of_its_faces(void **state)
 
 static void a_pressure_pushes_inwards(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_tube(ctx);
     OstLocal count;
     OstLocal *faces;
@@ -95,7 +78,6 @@ static void a_pressure_pushes_inwards(void **state)
 
 static void pressure_all_around_is_in_balance(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     OstSurface *surface = NULL;
     double area;
@@ -114,7 +96,6 @@ static void pressure_all_around_is_in_balance(void **state)
 
 static void gravity_weighs_the_polygonal_tube(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_tube(ctx);
     const OstMaterial material = make_material(ctx, 0); /* density 3 */
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);
@@ -132,7 +113,6 @@ static void gravity_weighs_the_polygonal_tube(void **state)
 
 static void a_body_force_acts_on_its_region(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const double volume = size_of_body[0] * size_of_body[1] * size_of_body[2];
     const double push[3] = {2.0, 0.0, 0.0};
@@ -151,7 +131,6 @@ static void a_body_force_acts_on_its_region(void **state)
 /* All local nodes are passed, ghosts too: each is counted by its owner. */
 static void a_total_force_is_shared_equally(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const double total[3] = {10.0, -20.0, 30.0};
     double *force = numbers(3 * (size_t)mesh->node_count);
@@ -172,7 +151,6 @@ static void a_total_force_is_shared_equally(void **state)
 
 static void point_forces_add_up(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const double each[3] = {1.0, 2.0, 3.0};
     double *force = numbers(3 * (size_t)mesh->node_count);
@@ -190,7 +168,6 @@ static void point_forces_add_up(void **state)
 
 static void faces_of_another_kind_are_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const double traction[3] = {1.0, 0.0, 0.0};
     double area;
@@ -204,7 +181,6 @@ static void faces_of_another_kind_are_refused(void **state)
 /* Every load at once, by label, on this many ranks and on one. */
 static void ranks_agree_with_one_rank(void **state)
 {
-    (void)state;
     double *loads[2];
     OstContext *alone = NULL;
     const double vector[3] = {1.0, -2.0, 3.0};

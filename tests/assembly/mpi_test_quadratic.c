@@ -132,7 +132,6 @@ static OstMaterial nearly_incompressible(OstContext *of)
 /* Rotated orthotropic axes; straight and curved tets; C whole, and split. */
 static void a_linear_field_passes_the_patch_test(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 4; kind++) {
         Pose pose = {.mesh = make_quadratic_body(ctx, kind % 2 == 0 ? 0.0 : 0.03)};
         const OstMaterial material = kind < 2 ? make_material(ctx, 1) : nearly_incompressible(ctx);
@@ -151,7 +150,6 @@ static void a_linear_field_passes_the_patch_test(void **state)
 
 static void a_quadratic_field_is_exact_on_straight_tets(void **state)
 {
-    (void)state;
     Pose pose = {.mesh = make_quadratic_body(ctx, 0.0)};
     const OstMaterial material = make_material(ctx, 1);
     double axes[9], c[36], density[3];
@@ -168,7 +166,6 @@ static void a_quadratic_field_is_exact_on_straight_tets(void **state)
 
 static void rigid_motions_meet_no_force(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 2; kind++) {
         OstMesh *mesh = make_quadratic_body(ctx, 0.03);
         const OstMaterial material = kind == 0 ? make_material(ctx, 1) : nearly_incompressible(ctx);
@@ -252,7 +249,6 @@ static void check_matrix(double bend, double away, int split)
 
 static void the_matrix_is_symmetric_and_gives_the_forces_of_the_tets(void **state)
 {
-    (void)state;
     check_matrix(0.03, 0.0, 0);
     check_matrix(0.03, 0.0, 1);
     check_matrix(0.0, 1048576.0, 0);
@@ -303,7 +299,6 @@ static double volume_of(OstMesh *mesh)
 
 static void area_and_volume_of_a_curved_ring_converge_with_order_four(void **state)
 {
-    (void)state;
     const double pi = 3.14159265358979323846;
     double area_error[2], volume_error[2];
     for (int r = 0; r < 2; r++) {
@@ -316,23 +311,8 @@ static void area_and_volume_of_a_curved_ring_converge_with_order_four(void **sta
     assert_true(volume_error[1] < 1e-4 && volume_error[1] < volume_error[0] / 14.0);
 }
 
-static void resultant(const OstMesh *mesh, const double *force, double sum[6])
-{
-    memset(sum, 0, 6 * sizeof *sum);
-    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
-        double moment[3];
-        ost_cross3(mesh->coordinates + 3 * node, force + 3 * node, moment);
-        for (int i = 0; i < 3; i++) {
-            sum[i] += force[3 * node + i];
-            sum[3 + i] += moment[i];
-        }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 6, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-}
-
 static void pressure_on_a_closed_curved_surface_is_in_balance(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_ring(ctx, 1);
     OstSurface *surface = NULL;
     double sum[6];
@@ -350,7 +330,6 @@ static void pressure_on_a_closed_curved_surface_is_in_balance(void **state)
 
 static void a_traction_has_the_force_and_moment_of_its_face(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_quadratic_body(ctx, 0.0);
     const OstBoundary *boundary = &mesh->boundaries[ost_mesh_find_boundary(mesh, "xmax")];
     const double traction[3] = {3.0, -1.0, 0.5};
@@ -418,7 +397,6 @@ static double ring_energy(OstContext *of, int refinement, int at_points)
 /* Order 2 with the axes of the centroids, order 4 with those of the points. */
 static void axes_are_those_of_the_quadrature_points(void **state)
 {
-    (void)state;
     const double reference = ring_energy(ctx, 6, 1);
     double error[2][2];
     for (int at_points = 0; at_points < 2; at_points++)
@@ -446,7 +424,6 @@ static double *by_sparse_label(const OstMesh *mesh, const double *values, OstGlo
 /* Forces by any number of ranks are those of one; curved, axes at points, C split. */
 static void ranks_agree_with_one_rank(void **state)
 {
-    (void)state;
     double *product[2];
     OstGlobal highest = 0;
     OstContext *alone = NULL;

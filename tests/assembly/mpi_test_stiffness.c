@@ -47,7 +47,6 @@ static void rigid_motion(const OstMesh *mesh, int mode, double *u)
 
 static void rigid_motions_meet_no_force(void **state)
 {
-    (void)state;
     Body body = make_free_body(1, AXES_RANDOM_BY_TET);
     const OstMesh *mesh = body.mesh;
     double *u = numbers(3 * (size_t)mesh->node_count);
@@ -68,7 +67,6 @@ static void rigid_motions_meet_no_force(void **state)
 
 static void the_matrix_gives_the_forces_summed_tet_by_tet(void **state)
 {
-    (void)state;
     Body body = make_free_body(1, AXES_RANDOM_BY_TET);
     const OstMesh *mesh = body.mesh;
     const size_t owned = 3 * (size_t)mesh->owned_nodes;
@@ -96,7 +94,6 @@ static void the_matrix_gives_the_forces_summed_tet_by_tet(void **state)
 
 static void rows_are_ascending_and_the_matrix_is_its_own_mirror_image(void **state)
 {
-    (void)state;
     Body body = make_free_body(1, AXES_RANDOM_BY_TET);
     const OstBlockMatrix *matrix = body.system->matrix;
     OstGlobal rows = matrix->rows;
@@ -126,7 +123,6 @@ static void rows_are_ascending_and_the_matrix_is_its_own_mirror_image(void **sta
 /* Across ranks too: x·Ky = y·Kx. */
 static void the_whole_matrix_is_symmetric(void **state)
 {
-    (void)state;
     Body body = make_free_body(1, AXES_RANDOM_BY_TET);
     const OstMesh *mesh = body.mesh;
     const OstLocal owned = 3 * mesh->owned_nodes;
@@ -152,7 +148,6 @@ static void the_whole_matrix_is_symmetric(void **state)
 /* ½ u·Ku of a uniform strain is ½ strain·C·strain times the box's volume. */
 static void the_energy_of_a_uniform_strain_is_exact(void **state)
 {
-    (void)state;
     static const double a[9] = {0.1, 0.02, -0.03, 0.05, -0.2, 0.04, 0.07, 0.01, 0.3};
     const double strain[6] = {a[0], a[4], a[8], a[1] + a[3], a[5] + a[7], a[6] + a[2]};
     for (int axes = AXES_FIXED; axes <= AXES_SAME_BY_TET; axes++) {
@@ -180,7 +175,6 @@ static void the_energy_of_a_uniform_strain_is_exact(void **state)
 
 static void isotropic_constants_do_not_feel_their_axes(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const OstMaterial isotropic = make_material(ctx, 0);
     OstMaterial turned = isotropic;
@@ -207,7 +201,6 @@ static void isotropic_constants_do_not_feel_their_axes(void **state)
 
 static void filling_again_gives_the_same(void **state)
 {
-    (void)state;
     Body body = make_free_body(1, AXES_RANDOM_BY_TET);
     OstBlockMatrix *matrix = body.system->matrix;
     const size_t count = 9 * (size_t)matrix->row_start[matrix->rows];
@@ -224,7 +217,6 @@ static void filling_again_gives_the_same(void **state)
 /* The product by any number of ranks is that of one. */
 static void ranks_agree_with_one_rank(void **state)
 {
-    (void)state;
     double *product[2];
     OstContext *alone = NULL;
     assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);

@@ -19,7 +19,6 @@ static void end(OstSupports *supports, OstMesh *mesh)
 
 static void a_free_node_is_left_alone(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     double p[9], g[3];
@@ -33,7 +32,6 @@ static void a_free_node_is_left_alone(void **state)
 
 static void a_slide_on_an_oblique_plane_takes_its_normal(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double normal[3] = {2.0, -1.0, 2.0}; /* of length 3: P = I - n n' / 9 */
@@ -50,7 +48,6 @@ static void a_slide_on_an_oblique_plane_takes_its_normal(void **state)
 /* Three skew directions determine the displacement: u·d_k = given_k for each. */
 static void skew_directions_together_hold_a_node(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double u[3] = {0.3, -0.2, 0.5};
@@ -69,7 +66,6 @@ static void skew_directions_together_hold_a_node(void **state)
 
 static void holding_the_same_twice_is_holding_it_once(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double x[3] = {1, 0, 0};
@@ -86,7 +82,6 @@ static void holding_the_same_twice_is_holding_it_once(void **state)
 /* Two normals of one plane, from rounded coordinates, hold it once: the tangent between them stays free. */
 static void nearly_parallel_slides_are_one(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double off[4] = {0.0, 1e-9, -3e-8, 5e-7};
@@ -104,7 +99,6 @@ static void nearly_parallel_slides_are_one(void **state)
 
 static void contradictions_are_refused_in_words(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double x[3] = {1, 0, 0};
@@ -122,7 +116,6 @@ static void contradictions_are_refused_in_words(void **state)
 
 static void useless_directions_are_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     const double zero[3] = {0, 0, 0};
@@ -136,7 +129,6 @@ static void useless_directions_are_refused(void **state)
 
 static void nothing_held_anywhere_is_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     assert_failure(ost_supports_complete(supports), OST_INVALID_INPUT, "nothing is constrained");
@@ -146,7 +138,6 @@ static void nothing_held_anywhere_is_refused(void **state)
 /* Every node with an odd label slides on a plane of its own; every rank must know it of its ghosts as well. */
 static void ghosts_are_held_as_their_owners_say(void **state)
 {
-    (void)state;
     OstMesh *mesh;
     OstSupports *supports = begin(&mesh);
     for (OstLocal node = mesh->owned_nodes - 1; node >= 0; node--) { /* in no helpful order */

@@ -66,7 +66,6 @@ static void check_patch(AxesOfBody axes)
 
 static void a_linear_field_passes_the_patch_test(void **state)
 {
-    (void)state;
     check_patch(AXES_FIXED);
     check_patch(AXES_SAME_BY_TET);
 }
@@ -110,7 +109,6 @@ static void destroy(Held *held)
 /* A v = P K (P v) + s (I - P) v with K the unsupported body's, and s the mean stiffness of the free directions. */
 static void partly_held_nodes_keep_what_is_free(void **state)
 {
-    (void)state;
     Held held = make_held(ctx, 0, 0.0);
     const OstMesh *mesh = held.mesh;
     const OstLocal n = mesh->owned_nodes;
@@ -156,7 +154,6 @@ static void partly_held_nodes_keep_what_is_free(void **state)
 
 static void the_right_hand_side_is_minus_k_g(void **state)
 {
-    (void)state;
     const long before = ost_ledger_entry(ctx, OST_EFFECT_PRESCRIBED_DISPLACEMENT).entries;
     Held held = make_held(ctx, 1, 0.25);
     const OstMesh *mesh = held.mesh;
@@ -200,7 +197,6 @@ static void the_right_hand_side_is_minus_k_g(void **state)
 
 static void effects_that_are_off_are_not_entered(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);
@@ -230,7 +226,6 @@ static void effects_that_are_off_are_not_entered(void **state)
 /* u = P v + g: what is held is where it was given, whatever v is. */
 static void displacements_obey_the_supports(void **state)
 {
-    (void)state;
     Held held = make_held(ctx, 1, 0.25);
     const OstMesh *mesh = held.mesh;
     const OstBlockMatrix *matrix = held.system->matrix;
@@ -262,7 +257,6 @@ static void displacements_obey_the_supports(void **state)
 /* Matrix and right-hand side by label, on this many ranks and on one. */
 static void ranks_agree_with_one_rank(void **state)
 {
-    (void)state;
     double *product[2];
     double *side[2];
     OstContext *alone = NULL;
@@ -312,7 +306,6 @@ static void ranks_agree_with_one_rank(void **state)
 /* Without supports, K times each mode is nothing, over all ranks: so the modes turn about one common point. */
 static void multigrid_is_told_the_rigid_motions(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_RANDOM_BY_TET);
@@ -354,7 +347,6 @@ static void multigrid_is_told_the_rigid_motions(void **state)
 /* One orientation in all tets: the mean is that of one tet, R' diag(sqrt(E_min / E_k)) R. */
 static void the_metric_of_one_orientation_is_its_own_mean(void **state)
 {
-    (void)state;
     static const double weight[3] = {0.1, 1.0, 0.44721359549995793928}; /* E = 1000, 10, 50 */
     OstMesh *mesh = make_body(ctx);
     const OstMaterial materials[2] = {make_material(ctx, 0), make_material(ctx, 1)};
@@ -390,7 +382,6 @@ static void the_metric_of_one_orientation_is_its_own_mean(void **state)
 
 static void modes_stay_clear_of_held_directions(void **state)
 {
-    (void)state;
     Held held = make_held(ctx, 1, 0.0);
     const OstBlockMatrix *matrix = held.system->matrix;
     const size_t length = 3 * (size_t)matrix->rows;
@@ -407,7 +398,6 @@ static void modes_stay_clear_of_held_directions(void **state)
 
 static void tets_of_other_orders_are_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     OstSupports *none = NULL;
     OstSystem *system = NULL;
@@ -422,7 +412,6 @@ static void tets_of_other_orders_are_refused(void **state)
 
 static void a_body_without_a_free_vertex_is_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     OstSupports *supports = NULL;
     OstSystem *system = NULL;

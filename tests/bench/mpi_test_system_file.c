@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver.h"
-#include "core/error.h"
 #include "core/memory.h"
 #include "support.h"
 #include "system_matrix.h"
@@ -75,7 +74,6 @@ static void the_file_holds_the_loads_and_the_nodes(void **state)
 {
     SystemFile system;
     double force[3] = {0.0}, rows = 0.0, labels = 0.0;
-    (void)state;
     read_back(&system);
     for (OstLocal row = 0; row < system.rows; row++, rows++) {
         const OstLocal place = (OstLocal)system.label[row] - 1;
@@ -117,7 +115,6 @@ static void the_file_holds_the_equations(void **state)
 {
     SystemFile system;
     double all[3 * FREE] = {0.0}, *u = NULL, residual = 0.0, size = 0.0;
-    (void)state;
     read_back(&system);
     solve(&system, &u);
     memcpy(all + 3 * system.first_row, u, 3 * (size_t)system.rows * sizeof *u);
@@ -147,7 +144,6 @@ static void a_cut_file_is_refused(void **state)
 {
     SystemFile system;
     char path[96], failure[SYSTEM_FAILURE];
-    (void)state;
     read_back(&system);
     system_file_release(&system);
     snprintf(path, sizeof path, "%s/system.%d", folder, ost_rank(ctx));

@@ -16,7 +16,6 @@ static const char bar[] =
 
 static void a_text_is_read_as_its_file_is(void **state)
 {
-    (void)state;
     char text[1024];
     OstCase *from_text = NULL;
     OstCase *from_file = NULL;
@@ -34,7 +33,6 @@ static void a_text_is_read_as_its_file_is(void **state)
 
 static void messages_name_the_text_and_files_are_beside_it(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     assert_failure(ost_case_parse(ctx, "some/where.yaml", "mesh: {blok: 1}\n", &c), OST_INVALID_INPUT,
                    "some/where.yaml:1:");
@@ -49,7 +47,6 @@ static void messages_name_the_text_and_files_are_beside_it(void **state)
 /* The second material axis of every tet lies along x: a bar of modulus 1, not 2, is pulled to twice its length. */
 static void a_program_brings_mesh_and_axes(void **state)
 {
-    (void)state;
     static const double turned[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
     const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {2, 2, 2}};
     OstCase *c = NULL;

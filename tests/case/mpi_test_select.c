@@ -102,7 +102,6 @@ static OstGlobal measure_faces(const char *mesh_text, const char *selection, dou
 
 static void boundaries_hold_their_vertices(void **state)
 {
-    (void)state;
     assert_int_equal(count_nodes(tube, "boundary: ends"), 2 * AROUND * (RADIAL + 1));
     assert_int_equal(count_nodes(tube, "boundary: [top, outer]"),
                      AROUND * (RADIAL + 1) + AROUND * (AXIAL + 1) - AROUND);
@@ -112,7 +111,6 @@ static void boundaries_hold_their_vertices(void **state)
 
 static void shapes_in_space_hold_what_lies_in_them(void **state)
 {
-    (void)state;
     assert_int_equal(count_nodes(block, "all: true"), (NX + 1) * (NY + 1) * (NZ + 1));
     assert_int_equal(count_nodes(block, "plane: {point: [9, 2, 9], normal: [0, -7, 0]}"), (NX + 1) * (NZ + 1));
     assert_int_equal(count_nodes(block, "plane: {point: [2, 2, 1], normal: [0, 1, 0], tolerance: 1}"),
@@ -130,7 +128,6 @@ static void shapes_in_space_hold_what_lies_in_them(void **state)
 
 static void vertices_go_by_their_labels(void **state)
 {
-    (void)state;
     assert_int_equal(count_nodes(block, "vertices: [60, 1, 17]"), 3);
     Scene scene = make_scene(block, "vertices: [1, 60, 61, 62]");
     OstLocal count;
@@ -144,7 +141,6 @@ static void vertices_go_by_their_labels(void **state)
 /* Of equally near vertices the one with the lowest label: here (a, b, c) = (1, 1, 1), label (1·4 + 1)·3 + 1 + 1. */
 static void the_nearest_vertex_is_one(void **state)
 {
-    (void)state;
     assert_int_equal(count_nodes(block, "nearest: [1.5, 1.5, 1.25]"), 1);
     Scene scene = make_scene(block, "nearest: [1.5, 1.5, 1.25]");
     OstLocal count = 0;
@@ -171,7 +167,6 @@ static void check_place(const char *selection)
 /* A slip of a digit would load another place than is meant. */
 static void a_place_off_the_body_is_warned_of(void **state)
 {
-    (void)state;
     char warning[256] = "";
     ost_warn_listen(ctx, remember, warning);
     check_place("nearest: [4, 3.9, 2]");
@@ -187,7 +182,6 @@ static void a_place_off_the_body_is_warned_of(void **state)
 
 static void names_that_do_not_exist_come_with_those_that_do(void **state)
 {
-    (void)state;
     Scene scene = make_scene(block, "boundary: xmim");
     OstLocal count;
     int n;
@@ -206,7 +200,6 @@ static void names_that_do_not_exist_come_with_those_that_do(void **state)
 
 static void an_empty_selection_says_where_the_body_is(void **state)
 {
-    (void)state;
     Scene scene = make_scene(block, "sphere: {center: [40, 1, 1], radius: 1}");
     OstLocal count;
     OstLocal *nodes = NULL;
@@ -218,7 +211,6 @@ static void an_empty_selection_says_where_the_body_is(void **state)
 
 static void faces_point_outwards(void **state)
 {
-    (void)state;
     double area[4];
     assert_int_equal(measure_faces(block, "boundary: xmin", area), 2 * NY * NZ);
     assert_close(area[0], -6.0, 1e-12);
@@ -234,7 +226,6 @@ static void faces_point_outwards(void **state)
 
 static void faces_follow_from_their_vertices(void **state)
 {
-    (void)state;
     double area[4];
     assert_int_equal(measure_faces(block, "plane: {point: [4, 0, 0], normal: [1, 0, 0]}", area), 2 * NY * NZ);
     assert_close(area[0], 6.0, 1e-12);
@@ -250,7 +241,6 @@ static void faces_follow_from_their_vertices(void **state)
 /* A boundary of faces inside the body has no outside. */
 static void faces_inside_the_body_are_refused(void **state)
 {
-    (void)state;
     Scene scene = make_scene(block, "boundary: xmin");
     OstMesh *mesh = scene.mesh;
     OstLocal count;
@@ -277,7 +267,6 @@ static void faces_inside_the_body_are_refused(void **state)
 /* A curve listed with faces would be left out in silence; by its vertices alone it may be selected. */
 static void a_curve_among_faces_is_refused(void **state)
 {
-    (void)state;
     Scene scene = make_scene(block, "boundary: [xmin, zmax]");
     OstBoundary *curve = &scene.mesh->boundaries[ost_mesh_find_boundary(scene.mesh, "zmax")];
     OstLocal count;
@@ -296,7 +285,6 @@ static void a_curve_among_faces_is_refused(void **state)
 
 static void ranks_read_the_same_case_and_fail_together(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     assert_refused(
         "mesh: 1\n",

@@ -10,7 +10,6 @@
 
 static void a_missing_file_is_named(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     assert_failure(ost_case_read(ctx, "/nowhere/no.yaml", &c), OST_FILE_FAILED,
                    "/nowhere/no.yaml: cannot be opened: No such file or directory");
@@ -20,7 +19,6 @@ static void a_missing_file_is_named(void **state)
 
 static void an_unknown_key_comes_with_the_nearest(void **state)
 {
-    (void)state;
     assert_refused(
         CUBE "materials:\n  - region: all\n    youngs_modulos: 1\n",
         "4:5: unknown key 'youngs_modulos' in materials[0]; did you mean 'youngs_modulus'? Known keys: region, "
@@ -53,7 +51,6 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
 
 static void springs_say_what_is_wrong(void **state)
 {
-    (void)state;
     assert_refused(SPRING("on: {all: true}"), "4:5: ...");
     assert_refused(SPRING("spring: 2"), "4:5: key 'on' is missing in springs[0]");
     assert_refused(SPRING("on: {all: true}, spring: -2"),
@@ -68,7 +65,6 @@ static void springs_say_what_is_wrong(void **state)
 
 static void eigenstrains_say_what_is_wrong(void **state)
 {
-    (void)state;
     assert_refused(
         MATERIAL("youngs_modulus: 1, poissons_ratio: 0.3, eigenstrain: [1, 2]"),
         "3:72: materials[0].eigenstrain: found a list of 2, expected a strain: one number, three along e1, e2, "
@@ -88,7 +84,6 @@ static void eigenstrains_say_what_is_wrong(void **state)
 
 static void only_a_pressure_follows(void **state)
 {
-    (void)state;
     assert_refused(LOAD("on: {all: true}, traction: [1, 0, 0], follows: true"),
                    "4:53: 'follows' belongs to pressure, not to 'traction'");
     assert_refused(LOAD("on: {all: true}, pressure: 1, follows: maybe"),
@@ -97,7 +92,6 @@ static void only_a_pressure_follows(void **state)
 
 static void missing_doubled_and_empty_keys_are_refused(void **state)
 {
-    (void)state;
     assert_refused(STEEL, "1:1: key 'mesh' is missing in the case");
     assert_refused(CUBE "materials: [{region: all, youngs_modulus: 1}]\n",
                    "2:13: key 'poissons_ratio' is missing in materials[0]");
@@ -110,7 +104,6 @@ static void missing_doubled_and_empty_keys_are_refused(void **state)
 
 static void wrong_types_say_what_was_found(void **state)
 {
-    (void)state;
     assert_refused("- 1\n", "1:1: the case: found a list of 1, expected a mapping with the keys title, mesh, ...");
     assert_refused(
         "mesh: cube\n",
@@ -129,7 +122,6 @@ static void wrong_types_say_what_was_found(void **state)
 
 static void numbers_are_whole_and_finite(void **state)
 {
-    (void)state;
     assert_refused(
         MATERIAL("youngs_modulus: 1e6Pa, poissons_ratio: 0.3"),
         "3:35: materials[0].youngs_modulus: found '1e6Pa', expected a number with nothing after it (write no "
@@ -164,7 +156,6 @@ static void numbers_are_whole_and_finite(void **state)
 
 static void exactly_one_form_is_expected(void **state)
 {
-    (void)state;
     assert_refused("mesh: {}\n" STEEL,
                    "1:7: mesh has none of tube, block, sector, octant, file; exactly one of them is expected");
     assert_refused(
@@ -181,7 +172,6 @@ static void exactly_one_form_is_expected(void **state)
 
 static void unstable_materials_are_refused_where_they_stand(void **state)
 {
-    (void)state;
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: 0.51"), "3:54: ...");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 10], poissons_ratio: {nu12: 0.3, nu23: 0.3, nu31: 0.3}, "
                             "shear_modulus: {G12: 1, G23: 1, G31: 1}"),
@@ -193,7 +183,6 @@ static void unstable_materials_are_refused_where_they_stand(void **state)
 
 static void constants_that_do_not_go_together_are_refused(void **state)
 {
-    (void)state;
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
                    "3:54: poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}, where the axis is e3");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),
@@ -213,7 +202,6 @@ static void constants_that_do_not_go_together_are_refused(void **state)
 
 static void bad_axes_are_refused_where_they_stand(void **state)
 {
-    (void)state;
     assert_refused(AXES("fixed: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]"),
                    "3:81: axes of region 'all': the axes are left-handed; ...");
     assert_refused(AXES("quaternion: [0, 0, 0, 0]"), "3:86: quaternion (0, 0, 0, 0); ...");
@@ -231,7 +219,6 @@ static void bad_axes_are_refused_where_they_stand(void **state)
 
 static void bad_selections_are_refused(void **state)
 {
-    (void)state;
     assert_refused(ON("all: false"), "4:16: constraints[0].on.all: found 'false', expected true");
     assert_refused(ON("plane: {point: [0, 0, 0], normal: [0, 0, 1], tolerance: -1}"),
                    "4:67: constraints[0].on.plane.tolerance: found '-1', expected a distance, 0 or above");
@@ -246,7 +233,6 @@ static void bad_selections_are_refused(void **state)
 
 static void bad_conditions_are_refused(void **state)
 {
-    (void)state;
     assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [free, free, free]}\n",
                    "4:37: every component is free, so this constraint constrains nothing; leave it out");
     assert_refused(CUBE STEEL "constraints:\n  - {on: {all: true}, displacement: [fre, 0, 0]}\n",
@@ -265,7 +251,6 @@ static void bad_conditions_are_refused(void **state)
 
 static void what_no_version_does_is_refused_in_words(void **state)
 {
-    (void)state;
     assert_refused(CUBE STEEL "effects: {large_rotation: auto}\n",
                    "3:1: unknown key 'effects' in the case. Known keys: ...");
     assert_refused(
@@ -277,7 +262,6 @@ static void what_no_version_does_is_refused_in_words(void **state)
 
 static void bad_settings_are_refused(void **state)
 {
-    (void)state;
     assert_refused(CUBE STEEL "accuracy: {relative_residual: 0.51}\n",
                    "3:31: accuracy.relative_residual: found '0.51', expected a number from 1e-15 to 0.5");
     assert_refused(CUBE STEEL "accuracy: {relative_error: 1}\n",

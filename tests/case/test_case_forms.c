@@ -24,7 +24,6 @@ static void assert_constants(const double expected[9])
 
 static void the_smallest_case_has_the_defaults(void **state)
 {
-    (void)state;
     char whole[512];
     snprintf(whole, sizeof whole, "%s%s", cube, steel);
     assert_success(read_text(whole, &c));
@@ -46,7 +45,6 @@ static void the_smallest_case_has_the_defaults(void **state)
 
 static void shapes_are_read(void **state)
 {
-    (void)state;
     char whole[1024];
     snprintf(whole, sizeof whole,
              "title: a tube\nmesh:\n  tube: {axis: y, length: 1.0e+1, radii: [.9, 1.5], origin: [1, -2, +3],\n"
@@ -77,7 +75,6 @@ static void shapes_are_read(void **state)
 
 static void files_are_named_from_the_case_files_folder(void **state)
 {
-    (void)state;
     char whole[1024], path[256], expected[512];
     case_path(path);
     *strrchr(path, '/') = 0;
@@ -96,7 +93,6 @@ static void files_are_named_from_the_case_files_folder(void **state)
 
 static void one_modulus_is_isotropic(void **state)
 {
-    (void)state;
     read_material("youngs_modulus: 2.6e6, poissons_ratio: 0.3, density: 1000");
     assert_close(c->materials[0].material.density, 1000.0, 0.0);
     assert_constants((double[9]){2.6e6, 2.6e6, 2.6e6, 0.3, 0.3, 0.3, 1e6, 1e6, 1e6});
@@ -104,7 +100,6 @@ static void one_modulus_is_isotropic(void **state)
 
 static void three_moduli_and_one_ratio_are_the_stable_family(void **state)
 {
-    (void)state;
     /* eq. 18: nu12 = nu sqrt(E1/E2) ...; eq. 22: G_ij = mean(E_i, E_j) / (2 (1 + nu)) */
     read_material("youngs_modulus: [1, 4, 16], poissons_ratio: 0.25");
     assert_constants((double[9]){1, 4, 16, 0.125, 0.125, 1.0, 2 / 2.5, 8 / 2.5, 4 / 2.5});
@@ -120,7 +115,6 @@ static void three_moduli_and_one_ratio_are_the_stable_family(void **state)
 
 static void nine_constants_go_by_name(void **state)
 {
-    (void)state;
     /* nu21 = nu12 E2/E1, nu31 = nu13 E3/E1 */
     read_material("youngs_modulus: [8, 4, 2], poissons_ratio: {nu13: 0.4, nu21: 0.1, nu23: 0.3}, "
                   "shear_modulus: {G13: 3, G12: 1, G32: 2}");
@@ -129,7 +123,6 @@ static void nine_constants_go_by_name(void **state)
 
 static void plane_and_axis_are_transversely_isotropic(void **state)
 {
-    (void)state;
     /* section 3.1: nu31 = nu_pz Ez/Ep, G12 = Ep / 2(1 + nu_p); eq. 20: nu_pz = nu_p sqrt(Ep/Ez) */
     read_material("youngs_modulus: {plane: 2, axis: 8}, poissons_ratio: {plane: 0.25, plane_axis: 0.1}, "
                   "shear_modulus: {axis: 3}");
@@ -142,7 +135,6 @@ static void plane_and_axis_are_transversely_isotropic(void **state)
 
 static void an_eigenstrain_has_five_forms(void **state)
 {
-    (void)state;
     static const struct {
         const char *text;
         double strain[6];
@@ -165,7 +157,6 @@ static void an_eigenstrain_has_five_forms(void **state)
 
 static void springs_are_read(void **state)
 {
-    (void)state;
     char whole[1024];
     snprintf(
         whole, sizeof whole,
@@ -194,7 +185,6 @@ static const OstAxesSpec *read_axes(const char *text)
 
 static void axes_of_one_frame_are_read(void **state)
 {
-    (void)state;
     const double turned[9] = {0, 1, 0, -1, 0, 0, 0, 0, 1}; /* by 90 degrees about z */
     static const char *const forms[] = {"fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]",
                                         "fixed: [[0, 2, 0], [-3, 0, 0], [0, 0, 1]]", "euler: {degrees: [90, 0, 0]}",
@@ -213,7 +203,6 @@ static void axes_of_one_frame_are_read(void **state)
 
 static void axes_along_a_line_are_read(void **state)
 {
-    (void)state;
     const OstAxesSpec *axes =
         read_axes("cylindrical: {origin: [1, 2, 3], axis: [0, 2, 0], order: [tangential, axial, radial]}");
     assert_int_equal(axes->kind, OST_AXES_CYLINDRICAL);
@@ -234,7 +223,6 @@ static void axes_along_a_line_are_read(void **state)
 
 static void axes_from_elsewhere_are_read(void **state)
 {
-    (void)state;
     const OstAxesSpec *axes = read_axes("cells: mesh");
     assert_int_equal(axes->kind, OST_AXES_CELLS);
     assert_null(axes->cells_file);
@@ -262,7 +250,6 @@ static const OstSelection *read_selection(const char *text)
 
 static void selections_by_name_and_number_are_read(void **state)
 {
-    (void)state;
     const OstSelection *on = read_selection("boundary: xmin");
     assert_int_equal(on->kind, OST_SELECT_BOUNDARY);
     assert_string_equal(on->boundaries.name[0], "xmin");
@@ -288,7 +275,6 @@ static void selections_by_name_and_number_are_read(void **state)
 
 static void selections_in_space_are_read(void **state)
 {
-    (void)state;
     const OstSelection *on = read_selection("plane: {point: [0, 0, 1], normal: [0, 3, 4], tolerance: 0.5}");
     assert_int_equal(on->kind, OST_SELECT_PLANE);
     assert_close(on->direction[1], 0.6, 1e-15);
@@ -316,7 +302,6 @@ static void selections_in_space_are_read(void **state)
 
 static void displacements_may_be_free(void **state)
 {
-    (void)state;
     char whole[512];
     snprintf(whole, sizeof whole, "%s%sconstraints:\n  - on: {all: true}\n    displacement: [free, 0, -1.5]\n", cube,
              steel);
@@ -331,7 +316,6 @@ static void displacements_may_be_free(void **state)
 
 static void every_load_is_read(void **state)
 {
-    (void)state;
     char whole[2048];
     snprintf(whole, sizeof whole,
              "%smaterials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3, density: 7}]\nloads:\n"
@@ -366,7 +350,6 @@ static void every_load_is_read(void **state)
 /* A case that asks for no residual takes what double precision holds; one that asks gets it, or a refusal. */
 static void what_is_out_of_reach_is_refused_to_those_who_ask(void **state)
 {
-    (void)state;
     static const char *const accuracy[] = {"", "accuracy: {relative_residual: 1e-8}\n",
                                            "accuracy: {out_of_reach: refuse}\n"};
     for (int a = 0; a < 3; a++) {
@@ -380,7 +363,6 @@ static void what_is_out_of_reach_is_refused_to_those_who_ask(void **state)
 
 static void settings_are_read(void **state)
 {
-    (void)state;
     char whole[2048];
     snprintf(whole, sizeof whole,
              "%s%selement: {order: 1, straighten: true}\naccuracy: {relative_residual: 1e-10, "
@@ -416,7 +398,6 @@ static void settings_are_read(void **state)
 
 static void aliases_stand_for_their_anchors(void **state)
 {
-    (void)state;
     char whole[1024];
     snprintf(whole, sizeof whole,
              "%smaterials:\n  - {region: a, youngs_modulus: &e [1, 2, 3], poissons_ratio: &n 0.3}\n"

@@ -10,7 +10,6 @@
 
 static void a_path_has_its_outputs(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     assert_success(read_text(PATH, &c));
     assert_int_equal(c->path_steps, 4);
@@ -30,7 +29,6 @@ static void a_path_has_its_outputs(void **state)
 
 static void equal_tables_are_one(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     assert_success(read_text(PATH "constraints:\n"
                                   "  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n"
@@ -51,7 +49,6 @@ static void equal_tables_are_one(void **state)
 
 static void factors_lie_on_the_line_between_points(void **state)
 {
-    (void)state;
     double time[] = {0.25, 0.5, 1.0}, factor[] = {2.0, 4.0, -1.0};
     const OstTimeTable table = {3, time, factor}, ramp = {0};
     assert_true(ost_time_factor(&table, 0.0) == 2.0 && ost_time_factor(&table, 0.25) == 2.0);
@@ -66,7 +63,6 @@ static void factors_lie_on_the_line_between_points(void **state)
 
 static void mistakes_are_named(void **state)
 {
-    (void)state;
     assert_refused(CUBE STEEL "path: {steps: 0}\n",
                    "3:15: path.steps: found '0', expected a whole number from 1 to ...");
     assert_refused(CUBE STEEL "path: {steps: 2, times: [1]}\n", "3:7: ...");

@@ -31,7 +31,6 @@ static void assert_effect(OstEffect effect, int on, const char *reason)
 
 static void a_bare_isotropic_body_calls_for_nothing(void **state)
 {
-    (void)state;
     make_plan(CUBE STEEL "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n");
     assert_effect(OST_EFFECT_ORTHOTROPY, 0, "every material is isotropic");
     assert_effect(OST_EFFECT_VARYING_AXES, 0, "an isotropic body needs no axes");
@@ -51,7 +50,6 @@ static void a_bare_isotropic_body_calls_for_nothing(void **state)
 
 static void large_rotations_are_explained(void **state)
 {
-    (void)state;
     make_plan(CUBE STEEL "large_rotation: off\n");
     assert_effect(OST_EFFECT_LARGE_ROTATION, 0,
                   "the case says so: linear theory, which takes rotations and strains as small");
@@ -66,7 +64,6 @@ static void large_rotations_are_explained(void **state)
 
 static void three_equal_moduli_with_axes_are_isotropic_still(void **state)
 {
-    (void)state;
     make_plan(CUBE "materials: [{region: all, youngs_modulus: [2, 2, 2], poissons_ratio: 0.3, axes: {cylindrical: "
                    "{origin: [9, 9, 0], axis: [0, 0, 1], order: [axial, radial, tangential]}}}]\n");
     assert_effect(OST_EFFECT_ORTHOTROPY, 0, "every material is isotropic");
@@ -75,7 +72,6 @@ static void three_equal_moduli_with_axes_are_isotropic_still(void **state)
 
 static void axes_of_an_isotropic_material_stay_if_something_is_asked_for_along_them(void **state)
 {
-    (void)state;
     static const char *const asking[] = {"watch: {hoop: {stress: {at: [0.5, 0.5, 0.5]}, component: 33}}\n",
                                          "output: {fields: [material_stress]}\n", "output: {fields: [e1]}\n",
                                          "output: {probes: {line: {points: [[0.5, 0.5, 0.5]]}}}\n",
@@ -96,7 +92,6 @@ static void axes_of_an_isotropic_material_stay_if_something_is_asked_for_along_t
 
 static void orthotropy_and_its_axes_are_explained(void **state)
 {
-    (void)state;
     make_plan(CUBE "materials: [{region: all, youngs_modulus: [1, 2, 3], poissons_ratio: 0.3}]\n");
     assert_effect(OST_EFFECT_ORTHOTROPY, 1, "3 different Young's moduli in region 'all'");
     assert_effect(OST_EFFECT_VARYING_AXES, 0, "the axes are uniform in each region");
@@ -113,7 +108,6 @@ static void orthotropy_and_its_axes_are_explained(void **state)
 
 static void materials_that_are_replaced_do_not_count(void **state)
 {
-    (void)state;
     char *names[2] = {"shell", "core"};
     const OstNames regions = {2, names};
     const OstPlanMesh mesh = {.nodes = 100, .tets = 300, .regions = &regions};
@@ -133,7 +127,6 @@ static void materials_that_are_replaced_do_not_count(void **state)
 
 static void materials_of_the_file_count_where_the_case_has_none(void **state)
 {
-    (void)state;
     OstMaterial two[2];
     const OstOrthotropic soft = ost_orthotropic_isotropic(1.0, 0.3);
     const OstOrthotropic fibre = ost_orthotropic_family((double[3]){1, 1, 9}, 0.3, OST_SHEAR_GEOMETRIC);
@@ -162,7 +155,6 @@ static void materials_of_the_file_count_where_the_case_has_none(void **state)
 
 static void supports_are_explained(void **state)
 {
-    (void)state;
     make_plan(CUBE STEEL "constraints:\n  - {on: {boundary: xmin}, displacement: [0, free, 0.1]}\n"
                          "  - {on: {boundary: xmax}, slide: [1, 0, 0]}\n");
     assert_effect(OST_EFFECT_PRESCRIBED_DISPLACEMENT, 1, "1 of 2 constraints prescribe a displacement other than zero");
@@ -173,7 +165,6 @@ static void supports_are_explained(void **state)
 
 static void loads_are_explained(void **state)
 {
-    (void)state;
     make_plan(CUBE STEEL "loads:\n  - {on: {boundary: xmax}, total_force: [1, 0, 0]}\n");
     assert_effect(OST_EFFECT_SURFACE_LOAD, 1, "1 of 1 loads act on faces");
     assert_effect(OST_EFFECT_POINT_FORCE, 0, "no load acts on vertices");
@@ -187,7 +178,6 @@ static void loads_are_explained(void **state)
 /* Without a share, a total force on a box acts on faces if there are any: the mesh has to be looked at. */
 static void only_the_mesh_tells_faces_from_vertices(void **state)
 {
-    (void)state;
     for (int few = 0; few < 2; few++) {
         char text[512];
         OstMeshChunk *chunk = NULL;
@@ -211,7 +201,6 @@ static void only_the_mesh_tells_faces_from_vertices(void **state)
 
 static void the_method_follows_the_size_unless_the_case_says(void **state)
 {
-    (void)state;
     make_plan("mesh: {block: {size: [1, 1, 1], divisions: [8, 8, 8]}}\n" STEEL);
     assert_int_equal(plan.unknowns, 3 * 9 * 9 * 9);
     assert_int_equal(plan.solver.first, OST_METHOD_DIRECT);
@@ -226,7 +215,6 @@ static void the_method_follows_the_size_unless_the_case_says(void **state)
 
 static void nearly_incompressible_begins_above_its_limit(void **state)
 {
-    (void)state;
     const char *const moduli[2] = {"1", "[1, 1000, 1]"};
     for (int k = 0; k < 2; k++) {
         char text[512];
@@ -242,7 +230,6 @@ static void nearly_incompressible_begins_above_its_limit(void **state)
 /* The paper's tube: 25,620 vertices and 129,600 tets; an independent count of its edges gives 13.7 blocks a row. */
 static void the_papers_tube_is_foreseen(void **state)
 {
-    (void)state;
     make_plan("mesh: {tube: {axis: y, length: 10, radii: [0.9, 1.5], divisions: {around: 60, radial: 6, axial: 60}}}\n"
               "materials: [{region: all, youngs_modulus: [1, 2, 3], poissons_ratio: 0.3, axes: {cylindrical: "
               "{origin: [0, 0, 0], axis: [0, 1, 0], order: [axial, radial, tangential]}}}]\n");
@@ -262,7 +249,6 @@ static void the_papers_tube_is_foreseen(void **state)
 /* A cube of 10 × 10 × 10 hexes of six tets: 21 nodes to each side. */
 static void quadratic_tets_are_counted(void **state)
 {
-    (void)state;
     const OstMeshCounts block = ost_mesh_counts(9261.0, 6000.0, 1, 1200.0);
     assert_close(block.vertices, 1331.0, 0.51);
     assert_close(block.edges, 7930.0, 1.51);
@@ -271,7 +257,6 @@ static void quadratic_tets_are_counted(void **state)
 
 static void a_file_is_refined_and_raised(void **state)
 {
-    (void)state;
     OstGlobal nodes = 1331, tets = 6000;
     double surface = 1200.0;
     assert_success(read_text("mesh: {file: a.msh, refine: 1}\nelement: {order: 2}\n" STEEL, &c));
@@ -284,7 +269,6 @@ static void a_file_is_refined_and_raised(void **state)
 
 static void more_ranks_hold_more_halo(void **state)
 {
-    (void)state;
     OstPlan two;
     assert_success(read_text(CUBE STEEL, &c));
     const OstPlanMesh mesh = {.nodes = 1331, .tets = 6000};
@@ -296,7 +280,6 @@ static void more_ranks_hold_more_halo(void **state)
 
 static void an_estimate_that_does_not_fit_is_left_out(void **state)
 {
-    (void)state;
     const OstPlanMesh mesh = {.nodes = 1331, .tets = 6000};
     assert_success(read_text(CUBE STEEL, &c));
     ost_plan_make(c, &mesh, 1, &plan);
@@ -328,7 +311,6 @@ static void an_estimate_that_does_not_fit_is_left_out(void **state)
 /* The scenes that come with Orthostat are all read, and the four tubes say what they are. */
 static void the_scenes_of_the_house_are_read(void **state)
 {
-    (void)state;
     static const char *const scenes[] = {"tube/isotropic",  "tube/longitudinal", "tube/radial",
                                          "tube/tangential", "tube/gradient",     "block/sliding",
                                          "block/pressure",  "block/gravity",     "bent-bar/curve"};

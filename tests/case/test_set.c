@@ -30,7 +30,6 @@ static void set(const char *setting)
 
 static void numbers_are_set_by_their_path(void **state)
 {
-    (void)state;
     set("loads.1.pressure=7e2");
     assert_close(c->loads[1].pressure, 700.0, 0.0);
     set("loads.0.total_force=[4, 5, 6]");
@@ -49,7 +48,6 @@ static void numbers_are_set_by_their_path(void **state)
 
 static void short_names_of_numbers_are_understood(void **state)
 {
-    (void)state;
     set("materials.wood.E1=12");
     assert_close(c->materials[0].material.constants.youngs_modulus[0], 12.0, 0.0);
     assert_close(c->materials[0].material.constants.youngs_modulus[1], 2.0, 0.0);
@@ -69,7 +67,6 @@ static void short_names_of_numbers_are_understood(void **state)
 /* E3 is the modulus of the axis. */
 static void moduli_along_and_across_an_axis_are_understood(void **state)
 {
-    (void)state;
     static const char text[] = "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
                                "materials: [{region: all, youngs_modulus: {plane: 2, axis: 5}, poissons_ratio: 0.3, "
                                "fibre: [0, 0, 1]}]\n";
@@ -85,7 +82,6 @@ static void moduli_along_and_across_an_axis_are_understood(void **state)
 
 static void what_is_not_there_is_added(void **state)
 {
-    (void)state;
     set("title=a bar, and so on");
     assert_string_equal(c->title, "a bar, and so on");
     set("element.order=2");
@@ -102,7 +98,6 @@ static void what_is_not_there_is_added(void **state)
 
 static void several_changes_are_made_in_their_order(void **state)
 {
-    (void)state;
     const char *const settings[] = {"loads.1.pressure=7", "accuracy.relative_residual=1e-10",
                                     "title=one",          "accuracy.out_of_reach=accept",
                                     "title=two",          "materials.0.E1=8",
@@ -129,7 +124,6 @@ static void refuse(const char *setting, OstStatus status, const char *words)
 
 static void wrong_settings_are_refused_in_words(void **state)
 {
-    (void)state;
     refuse("pressure", OST_INVALID_USAGE,
            "bar.yaml: cannot set pressure: expected KEY=VALUE, as in loads.0.pressure=2e5");
     refuse("title=", OST_INVALID_USAGE, "expected KEY=VALUE");
@@ -152,7 +146,6 @@ static void wrong_settings_are_refused_in_words(void **state)
 
 static void a_value_that_aliases_stand_for_stays(void **state)
 {
-    (void)state;
     static const char text[] = "mesh: {block: {size: &size [4, 1, 1], divisions: [2, 2, 2], origin: *size}}\n"
                                "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3}]\n";
     const char *setting = "mesh.block.size=[1, 1, 1]";
@@ -185,7 +178,6 @@ static const char with_cases[] = "mesh: {block: {size: [4, 1, 1], divisions: [2,
 
 static void a_load_case_is_a_case_with_its_own_beside_that_of_all(void **state)
 {
-    (void)state;
     assert_success(ost_case_parse(ctx, "bridge.yaml", with_cases, &c));
     assert_int_equal(ost_case_load_case_count(c), 3);
     const OstCase *empty = ost_case_load_case(c, 0), *wind = ost_case_load_case(c, 1), *sunk = ost_case_load_case(c, 2);
@@ -206,7 +198,6 @@ static void a_load_case_is_a_case_with_its_own_beside_that_of_all(void **state)
 
 static void a_load_case_is_picked_and_set_by_its_name(void **state)
 {
-    (void)state;
     const char *setting = "cases.wind.loads.0.value=6";
     const OstCaseText text = {.bytes = with_cases, .size = strlen(with_cases), .settings = 1, .setting = &setting};
     assert_success(ost_case_make(ctx, "bridge.yaml", &text, &c));
@@ -228,7 +219,6 @@ static void refuse_cases(const char *cases, const char *words)
 
 static void wrong_load_cases_are_refused(void **state)
 {
-    (void)state;
     refuse_cases("cases: {wind: 3}\n", "3:8: cases: found a mapping, expected a list of load cases...");
     refuse_cases("cases: []\n", "3:8: found 0 load cases, expected 1 to 1000");
     refuse_cases("cases: [{loads: []}]\n", "3:9: key 'name' is missing in cases[0]");

@@ -4,7 +4,6 @@
 
 static void text_that_is_not_yaml_is_refused_with_its_place(void **state)
 {
-    (void)state;
     assert_refused("", "1:1: the file is empty; a case needs a mesh at least");
     assert_refused("# only a comment\n", "1:1: the file is empty; a case needs a mesh at least");
     assert_refused("mesh: {block\n", "2:1: not YAML: ...");
@@ -23,7 +22,6 @@ static void text_that_is_not_yaml_is_refused_with_its_place(void **state)
 
 static void nesting_is_limited(void **state)
 {
-    (void)state;
     char deep[100001];
     memset(deep, '[', sizeof deep - 1);
     deep[sizeof deep - 1] = 0;
@@ -33,7 +31,6 @@ static void nesting_is_limited(void **state)
 /* Each level doubles the one before; written out it would be 2^60 values. */
 static void aliases_cannot_multiply_a_file(void **state)
 {
-    (void)state;
     char bomb[4096] = "a0: &a0 [1]\n";
     for (int level = 1; level < 60; level++)
         snprintf(bomb + strlen(bomb), sizeof bomb - strlen(bomb), "a%d: &a%d [*a%d, *a%d]\n", level, level, level - 1,
@@ -44,7 +41,6 @@ static void aliases_cannot_multiply_a_file(void **state)
 /* Peak memory of reading files that are nothing but structure, against their size. */
 static void memory_stays_under_ten_times_the_input(void **state)
 {
-    (void)state;
     enum { SIZE = 1 << 20 };
     static const char *const patterns[] = {"[1,1,1,1,1,1,1,1,",
                                            "- - - - -\n",
@@ -76,7 +72,6 @@ static void memory_stays_under_ten_times_the_input(void **state)
 /* Every prefix and every single changed byte of a good case is read or refused; nothing else. */
 static void damaged_cases_never_do_worse_than_fail(void **state)
 {
-    (void)state;
     static const char good[] =
         "mesh: {tube: {axis: y, length: 10, radii: [0.9, 1.5], divisions: {around: 60, radial: 6, axial: 60}}}\n"
         "materials:\n  - region: all\n    youngs_modulus: [1e6, 1e9, 1e6]\n    poissons_ratio: 0.3\n"
@@ -104,7 +99,6 @@ static void damaged_cases_never_do_worse_than_fail(void **state)
 
 static void a_byte_order_mark_is_no_part_of_the_case(void **state)
 {
-    (void)state;
     char text[512];
     OstCase *c = NULL;
     snprintf(text, sizeof text, "\xef\xbb\xbf%s%s", cube, steel);

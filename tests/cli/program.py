@@ -32,6 +32,18 @@ def fewer(choices):
     return choices[-1:] if SANITIZED else choices
 
 
+def write(folder, name, content):
+    """Writes a file, and returns its name."""
+    with open(os.path.join(folder, name), "wb" if isinstance(content, bytes) else "w") as stream:
+        stream.write(content)
+    return name
+
+
+def read_json(folder, name):
+    with open(os.path.join(folder, name)) as stream:
+        return json.load(stream)
+
+
 def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
     command = [program, *map(str, arguments)]
     if ranks > 1:
@@ -44,15 +56,13 @@ def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
 def solve(case_text, ranks=1, folder=None, name="case.yaml", extra=()):
     """Writes a case, solves it, and returns (finished, json or None, path of the result)."""
     folder = folder or new_folder()
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(case_text)
+    write(folder, name, case_text)
     summary = os.path.join(folder, "summary.json")
     result = os.path.join(folder, f"result-{ranks}.vtkhdf")
     finished = run("solve", name, "--output", result, "--json", summary, *extra, ranks=ranks, folder=folder)
     report = None
     if finished.exit_code == 0:
-        with open(summary) as stream:
-            report = json.load(stream)
+        report = read_json(folder, "summary.json")
     return finished, report, result
 
 

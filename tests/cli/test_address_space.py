@@ -1,9 +1,8 @@
 """Under a limit of address space (ulimit -v) the program works or says what is short; OpenBLAS would wait for ever."""
-import os
 import resource
 import subprocess
 
-from program import PROGRAM, check, new_folder
+from program import PROGRAM, check, new_folder, write
 
 CASE = """mesh:
   block: {size: [2, 1, 1], divisions: [16, 16, 16]}
@@ -27,8 +26,7 @@ def solve_within(mebibytes, folder):
 
 def main():
     folder = new_folder()
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(CASE)
+    write(folder, "case.yaml", CASE)
     for mebibytes in 250, 400, 500:
         ended = solve_within(mebibytes, folder)
         check(ended.returncode == 1 and "512 MiB of address space" in ended.stderr

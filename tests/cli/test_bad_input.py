@@ -2,7 +2,7 @@
 import os
 from concurrent.futures import ThreadPoolExecutor
 
-from program import SANITIZED, check, new_folder, run
+from program import SANITIZED, check, new_folder, run, write
 
 GOOD = """mesh:
   block: {size: [2, 1, 1], divisions: [4, 2, 2]}
@@ -184,13 +184,10 @@ def refused(mistake, ranks):
     name, text, files, wanted = mistake
     folder = new_folder()
     for file, content in files.items():
-        with open(os.path.join(folder, file), "w") as stream:
-            stream.write(content)
+        write(folder, file, content)
     if text is not None:
-        with open(os.path.join(folder, "case.yaml"), "w") as stream:
-            stream.write(text)
-    with open(os.path.join(folder, "result.vtkhdf"), "w") as stream:
-        stream.write("precious")
+        write(folder, "case.yaml", text)
+    write(folder, "result.vtkhdf", "precious")
     finished = run("solve", "case.yaml" if text is not None else "nowhere.yaml", ranks=ranks, folder=folder)
     where = f"{name} on {ranks} rank(s)"
     check(finished.exit_code == 2, f"{where}: exit status {finished.exit_code}\n{finished.errors}")

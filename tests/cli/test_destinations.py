@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 
-from program import PROGRAM, check, new_folder, run
+from program import PROGRAM, check, new_folder, run, write
 
 CASE = """mesh:
   block: {size: [2, 1, 1], divisions: [2, 1, 1]}
@@ -17,11 +17,6 @@ constraints:
 loads:
   - {on: {boundary: xmax}, total_force: [0, 0, -1]}
 """
-
-
-def write(folder, name, text):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
 
 
 def read(folder, name):

@@ -3,7 +3,7 @@ ledger has calls for those that are on alone. `explain` looks at the mesh where 
 import json
 import os
 
-from program import SOURCE, check, new_folder, run
+from program import SOURCE, check, new_folder, run, write
 
 VEG = """*VERTICES
 5 3 0 0
@@ -82,11 +82,9 @@ def compare(name, on, folder, ranks=1):
 
 
 folder = new_folder()
-with open(os.path.join(folder, "two.veg"), "w") as stream:
-    stream.write(VEG)
+write(folder, "two.veg", VEG)
 for title, (text, on) in CASES.items():
-    with open(os.path.join(folder, f"{title}.yaml"), "w") as stream:
-        stream.write(text)
+    write(folder, f"{title}.yaml", text)
     compare(f"{title}.yaml", on, folder)
 for name in ("block/gravity", "block/pressure", "block/sliding", "beam/cantilever", "tube/gradient"):
     compare(os.path.join(SOURCE, "cases", name + ".yaml"), [], folder)
@@ -100,7 +98,6 @@ WHOLE = {
 }
 for title, (text, effect) in WHOLE.items():
     held = HELD + force("{boundary: xmax}") if "block" in text else FIXED + force("{vertices: [5]}")
-    with open(os.path.join(folder, f"{title}.yaml"), "w") as stream:
-        stream.write(text + held)
+    write(folder, f"{title}.yaml", text + held)
     compare(f"{title}.yaml", [effect] if effect else [], folder, ranks=2)
     compare(f"{title}.yaml", [], folder)

@@ -1,10 +1,9 @@
 """Eigenstrains tet by tet, from a field of the mesh file: $ElementData of .msh, text and bytes, and CellData of .vtkhdf."""
 import json
 import math
-import os
 import struct
 
-from program import check, fewer, new_folder, run
+from program import check, fewer, new_folder, run, write
 
 CORNERS = [(0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3)]
 LENGTH = 3
@@ -69,13 +68,8 @@ def case(eigenstrain, mesh="file: bar.msh", order=1, more=""):
 folder = new_folder()
 
 
-def write(name, content):
-    with open(os.path.join(folder, name), "wb" if isinstance(content, bytes) else "w") as stream:
-        stream.write(content)
-
-
 def answer(text, ranks=1):
-    write("case.yaml", text)
+    write(folder, "case.yaml", text)
     done = run("solve", "case.yaml", "-q", "--json", "-", ranks=ranks, folder=folder)
     check(done.exit_code == 0, done.errors)
     watched = json.loads(done.output)["watched"]
@@ -101,11 +95,11 @@ GROWN = {region: [0.01 * m, 0.0, -0.02 * m] for region, m in (("lower", 0.5), ("
 
 for field, stated in (("{field: swelling}", STATED), ("{field: tensor}", SHEARED),
                       ("{per_unit: [0.01, 0, -0.02], change: {field: moisture}}", GROWN)):
-    write("bar.msh", msh(FIELDS))
+    write(folder, "bar.msh", msh(FIELDS))
     expected = answer(case(stated))
     check(expected[1] > 0, "the halves are in each other's way")
     same(answer(case(field), fewer((1, 3))[-1]), expected, field)
-    write("bar.msh", msh(FIELDS, binary=True))
+    write(folder, "bar.msh", msh(FIELDS, binary=True))
     same(answer(case(field)), expected, f"{field}, binary")
 fine = "file: bar.msh, refine: 1"
 expected = answer(case(STATED, fine, 2))
@@ -113,14 +107,14 @@ for ranks in fewer((1, 4)):
     same(answer(case("{field: swelling}", fine, 2), ranks), expected, f"refined, of order 2, on {ranks} ranks")
 
 # From a result: the energy density of a bar that is pulled is F²/(2 E A²), and swells the same bar freely by as much.
-write("pulled.yaml", "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"
+write(folder, "pulled.yaml", "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"
       "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0}]\nlarge_rotation: off\n"
       "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]},\n"
       "              {on: {boundary: zmin}, slide: [0, 0, 1]}]\nloads: [{on: {boundary: xmax}, total_force: [1, 0, 0]}]\n")
 done = run("solve", "pulled.yaml", folder=folder)
 check(done.exit_code == 0, done.errors)
 for ranks in fewer((1, 3)):
-    write("grown.yaml", "mesh: {file: pulled.vtkhdf}\n"
+    write(folder, "grown.yaml", "mesh: {file: pulled.vtkhdf}\n"
           "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0, eigenstrain: {field: strain_energy_density}}]\n"
           "constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]},\n"
           "              {on: {boundary: zmin}, slide: [0, 0, 1]}]\n"
@@ -131,7 +125,7 @@ for ranks in fewer((1, 3)):
     check(math.isclose(grown, 2 / 20, rel_tol=1e-7), f"grown by {grown} on {ranks} ranks")
 
 # What is refused, where it stands.
-write("bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}), **FIELDS}))
+write(folder, "bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}), **FIELDS}))
 for eigenstrain, mesh, words in (
         ("{field: swelling_}", "file: bar.msh", "there is no field 'swelling_'"),
         ("{field: few}", "file: bar.msh", "the field 'few' has no number for tet 105 of region 'lower'"),
@@ -139,11 +133,11 @@ for eigenstrain, mesh, words in (
         ("{per_unit: 1, change: {field: swelling}}", "file: bar.msh", "the field 'swelling' has 3 numbers a tet; a change is one"),
         ("{field: swelling}", "block: {size: [3, 1, 2], divisions: [3, 1, 2]}", "this mesh comes from none"),
         ("{field: nothing}", "file: pulled.vtkhdf", "there is no field 'nothing' on the cells, or on the points")):
-    write("case.yaml", case(eigenstrain, mesh))
+    write(folder, "case.yaml", case(eigenstrain, mesh))
     for ranks in fewer((1, 3)) if "few" in eigenstrain or "nothing" in eigenstrain else (1,):
         refused = run("check", "case.yaml", ranks=ranks, folder=folder)
         check(refused.exit_code == 2 and words in refused.errors and "case.yaml:4:" in refused.errors, f"{eigenstrain}: {refused.errors}")
-write("bar.msh", msh({"swelling": (3, along)}).replace(b"\n101 4 ", b"\n100 4 "))
-write("case.yaml", case("{field: swelling}"))
+write(folder, "bar.msh", msh({"swelling": (3, along)}).replace(b"\n101 4 ", b"\n100 4 "))
+write(folder, "case.yaml", case("{field: swelling}"))
 refused = run("check", "case.yaml", folder=folder)
 check(refused.exit_code == 2 and "give each element its own tag" in refused.errors, refused.errors)

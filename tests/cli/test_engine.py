@@ -3,7 +3,7 @@
 import json
 import os
 
-from program import SOURCE, check, new_folder, run, solve
+from program import SOURCE, check, new_folder, run, solve, write
 
 COUNTER = os.environ["ORTHOSTAT_COUNTER"]
 
@@ -49,8 +49,7 @@ def aztecoo_iterates_and_ml_cycles():
 
 def explain_names_the_engine():
     folder = new_folder()
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(TUBE)
+    write(folder, "case.yaml", TUBE)
     explained = run("explain", "case.yaml", folder=folder).output
     check("engine               AztecOO CG, ML cycle" in explained, explained)
     plan = json.loads(run("explain", "--json", "case.yaml", folder=folder).output)

@@ -3,7 +3,7 @@ boundaries that touch; and moduli, fibres and axes from fields of the mesh file.
 import json
 import os
 
-from program import SOURCE, check, fewer, new_folder, run
+from program import SOURCE, check, fewer, new_folder, run, write
 
 folder = new_folder()
 STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
@@ -23,8 +23,7 @@ def text(material, mesh=BLOCK, order=1, held=HELD):
 
 
 def call(case, command="solve", ranks=1):
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(case)
+    write(folder, "case.yaml", case)
     arguments = ["--json", "-", "-q"] if command == "solve" else ["--json"]
     return run(command, "case.yaml", *arguments, ranks=ranks, folder=folder)
 
@@ -214,8 +213,7 @@ for ranks in fewer([3]):
     same(answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES), ranks), turning, f"a field of fibres on {ranks} ranks")
 
 # A result of its own as the mesh: its displacements, on points, as fibres; in a .vtkhdf file ranks' pieces share points.
-with open(os.path.join(folder, "bent.yaml"), "w") as stream:
-    stream.write(text("youngs_modulus: 1000, poissons_ratio: 0.3", TWO_CUBES, 2))
+write(folder, "bent.yaml", text("youngs_modulus: 1000, poissons_ratio: 0.3", TWO_CUBES, 2))
 for name, ranks in (("bent.vtu", 1), ("bent-1.vtkhdf", 1), ("bent-3.vtkhdf", 3)):
     done = run("solve", "bent.yaml", "-q", "-o", name, ranks=ranks, folder=folder)
     check(done.exit_code == 0, done.errors)

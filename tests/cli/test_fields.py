@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
-from program import check, fewer, new_folder, run
+from program import check, fewer, new_folder, run, write
 
 E, NU = (11e9, 0.9e9, 0.5e9), 0.3
 TENSION, COMPRESSION, SHEAR = (80e6, 3e6, 3e6), (45e6, 6e6, 6e6), (8e6, 3e6, 8e6)
@@ -35,11 +35,6 @@ large_rotation: off
 """
 OUTPUT = f"output: {{fields: [{', '.join(FIELDS)}]}}\n"
 folder = new_folder()
-
-
-def write(name, text):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
 
 
 def solve(case, output, ranks=1, *more):
@@ -70,7 +65,7 @@ def near(found, expected, what, tolerance=1e-8):
 
 
 # Uniform tension at 30 degrees to the fibre: the stress along the axes, and what follows from it, is known.
-write("tension.yaml", CASE + OUTPUT)
+write(folder, "tension.yaml", CASE + OUTPUT)
 finished, report = solve("tension.yaml", "one.vtu")
 c, s = math.cos(math.radians(ANGLE)), math.sin(math.radians(ANGLE))
 own = np.array([PULL * c * c, PULL * s * s, 0, -PULL * c * s, 0, 0])
@@ -110,12 +105,12 @@ for criterion, factor in least.items():
 check(f"Tsai-Wu: fails at {tsai_wu:.5g} times the load, in tet 1" in finished.output, finished.output)
 
 # Grown by that factor the load is the last that holds.
-write("grown.yaml", (CASE + OUTPUT).replace(f"traction: [{PULL}", f"traction: [{PULL * tsai_wu}"))
+write(folder, "grown.yaml", (CASE + OUTPUT).replace(f"traction: [{PULL}", f"traction: [{PULL * tsai_wu}"))
 near(solve("grown.yaml", "grown.vtu")[1]["strength"]["tsai_wu"]["load_factor"], 1.0, "at the load that fails")
 
 # Any number of ranks: the same values, each vertex once, and no surface between ranks.
 bent = CASE.replace(f"traction: [{PULL}, 0, 0]", "point_force: [1e3, 2e3, 5e2]").replace("boundary: xmax", "nearest: [4, 1, 1]")
-write("bent.yaml", bent + "element: {order: 2}\naccuracy: {relative_residual: 1e-12}\n" + OUTPUT)
+write(folder, "bent.yaml", bent + "element: {order: 2}\naccuracy: {relative_residual: 1e-12}\n" + OUTPUT)
 single = None
 for ranks in fewer((1, 2, 4)):
     for ending in "vtu", "pvtu":
@@ -148,11 +143,11 @@ check(mesh.cells[0].type == "tetra10" and len(mesh.points) == single[1]["vertice
 near(np.sort(mesh.cell_data["von_mises"][0].reshape(-1)), np.sort(single[0]["von_mises"]), "von_mises by meshio", 1e-7)
 
 # Without `fields` the load factors are there where a material has strengths, and nothing else that others follow from.
-write("default.yaml", CASE)
+write(folder, "default.yaml", CASE)
 solve("default.yaml", "default.vtu")
 found = set(arrays(read("default.vtu").GetCellData()))
 check("hill_load_factor" in found and not found & {"von_mises", "e1", "principal_stress"}, f"by default: {sorted(found)}")
-write("plain.yaml", CASE.replace("    strengths:", "    # strengths:"))
+write(folder, "plain.yaml", CASE.replace("    strengths:", "    # strengths:"))
 report = solve("plain.yaml", "plain.vtu")[1]
 found = set(arrays(read("plain.vtu").GetCellData()))
 check("hill_load_factor" not in found and report["strength"] is None, f"without strengths: {sorted(found)}")
@@ -160,7 +155,7 @@ strength = next(account for account in report["ledger"]["accounts"] if account["
 check(strength["entries"] == 0 and strength["bytes"] == 0, f"strength is off and costs {strength}")
 
 # Steps as a series; a failed run leaves the earlier result; a refused one is marked.
-write("path.yaml", CASE + "path: {steps: 2}\n" + OUTPUT)
+write(folder, "path.yaml", CASE + "path: {steps: 2}\n" + OUTPUT)
 solve("path.yaml", "steps.pvtu", fewer((2,))[-1])
 with open(os.path.join(folder, "steps.pvd")) as stream:
     listed = stream.read()
@@ -168,7 +163,7 @@ check('timestep="0.5" file="steps_0001.pvtu"' in listed and 'timestep="1" file="
 near(arrays(read("steps_0001.pvtu").GetCellData())["von_mises"], PULL / 2, "von Mises of step 1")
 with open(os.path.join(folder, "one.vtu"), "rb") as stream:
     before = stream.read()
-write("unsolved.yaml", bent + "element: {order: 2}\n" + OUTPUT + "solver: {method: plain, max_iterations: 2, coarsest_unknowns: 50}\n")
+write(folder, "unsolved.yaml", bent + "element: {order: 2}\n" + OUTPUT + "solver: {method: plain, max_iterations: 2, coarsest_unknowns: 50}\n")
 finished = run("solve", "unsolved.yaml", "-o", "one.vtu", folder=folder)
 with open(os.path.join(folder, "one.vtu"), "rb") as stream:
     check(finished.exit_code == 1 and stream.read() == before, "a run that failed touched the earlier result")
@@ -188,8 +183,8 @@ for text, message in (("tension: [80e6, 3e6, 3e6]", "'shear' is missing"), ("com
                       ("tension: -1", "above 0"), ("tension: 1, shear: {S12: 1, S21: 1}", "same strength"),
                       ("tension: 1, shear: {S12: 1}", "S12, S23 and S31"),
                       ("tension: 1, interaction: -0.9", "without end")):
-    write("wrong.yaml", CASE.replace(CASE[CASE.index("strengths: {"):CASE.index("}}\nconstraints") + 2], f"strengths: {{{text}}}"))
+    write(folder, "wrong.yaml", CASE.replace(CASE[CASE.index("strengths: {"):CASE.index("}}\nconstraints") + 2], f"strengths: {{{text}}}"))
     finished = run("check", "wrong.yaml", folder=folder)
     check(finished.exit_code == 2 and message in finished.errors and "wrong.yaml:8:" in finished.errors, finished.errors)
-write("open.yaml", CASE.replace("tension: [80000000.0, 3000000.0, 3000000.0]", "tension: [8e7, 3e6, 4.5e6]"))
+write(folder, "open.yaml", CASE.replace("tension: [80000000.0, 3000000.0, 3000000.0]", "tension: [8e7, 3e6, 4.5e6]"))
 check("Hill's criterion lets some stresses grow" in run("check", "open.yaml", folder=folder).errors, "an open criterion")

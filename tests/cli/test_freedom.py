@@ -1,7 +1,7 @@
 """What nothing holds is refused in words, before the solve; a floating body under balanced loads is solved when asked."""
 import os
 
-from program import check, fewer, new_folder, read_points, run, solve
+from program import check, fewer, new_folder, read_points, run, solve, write
 
 TETS = [(0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3)]
 
@@ -90,8 +90,7 @@ def refusals():
             for ranks in (1,) if command == "check" else fewer((1, 3)):
                 folder = new_folder()
                 for file, content in (("m.veg", veg(cells)), ("case.yaml", text), ("result.vtkhdf", "precious")):
-                    with open(os.path.join(folder, file), "w") as stream:
-                        stream.write(content)
+                    write(folder, file, content)
                 finished = run(command, "case.yaml", ranks=ranks, folder=folder)
                 where = f"{name}: {command} on {ranks} rank(s)"
                 check(finished.exit_code == 2, f"{where}: exit status {finished.exit_code}\n{finished.errors}")
@@ -113,8 +112,7 @@ def merged():
                               ("merged", "file: m.veg, merge: 0.01", [ONE, SIDE])):
         for ranks in fewer((1, 4)):
             folder = new_folder()
-            with open(os.path.join(folder, "m.veg"), "w") as stream:
-                stream.write(veg(cells))
+            write(folder, "m.veg", veg(cells))
             finished, report, _ = solve(case(HELD, pull, mesh), ranks=ranks, folder=folder)
             check(finished.exit_code == 0, f"{name} on {ranks} ranks: {finished.errors}")
             joined = "joined 4 vertices" in finished.errors
@@ -128,8 +126,7 @@ def merged():
 def held_apart():
     """Parts that are all held are solved, with a word on vertices that coincide."""
     folder = new_folder()
-    with open(os.path.join(folder, "m.veg"), "w") as stream:
-        stream.write(veg([ONE, SIDE]))
+    write(folder, "m.veg", veg([ONE, SIDE]))
     for ranks in fewer((1, 3)):
         finished, _, _ = solve(case("[{on: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, displacement: [0, 0, 0]}]"),
                                ranks=ranks, folder=folder)

@@ -6,7 +6,7 @@ import subprocess
 import time
 import types
 
-from program import MPIEXEC, PROGRAM, check, new_folder
+from program import MPIEXEC, PROGRAM, check, new_folder, write
 
 CASE = """mesh: {block: {size: [4, 1, 1], divisions: [120, 30, 30]}}
 materials: [{region: all, youngs_modulus: [1000, 2000, 4000], poissons_ratio: 0.3}]
@@ -16,8 +16,7 @@ output: {file: bar.vtkhdf}
 """
 os.environ.pop("OMPI_MCA_odls_base_sigkill_timeout", None)  # of the tests: mpirun would kill ranks before they can speak
 folder = new_folder()
-with open(os.path.join(folder, "bar.yaml"), "w") as stream:
-    stream.write(CASE)
+write(folder, "bar.yaml", CASE)
 
 
 def ranks_of(process):
@@ -93,8 +92,7 @@ code = interrupt_on_terminal([MPIEXEC, "-n", "2", PROGRAM, "solve", "bar.yaml"],
 check(code != 0, f"Ctrl-C under mpirun: exit {code}")  # 1 of Open MPI 4, whatever the ranks end with
 
 # --- a file that is half written goes, one that is complete stays ---
-with open(os.path.join(folder, "many.yaml"), "w") as stream:
-    stream.write(CASE.replace("[120, 30, 30]", "[60, 16, 16]") + "path: {steps: 200}\nlarge_rotation: off\n")
+write(folder, "many.yaml", CASE.replace("[120, 30, 30]", "[60, 16, 16]") + "path: {steps: 200}\nlarge_rotation: off\n")
 process = subprocess.Popen([PROGRAM, "solve", "many.yaml", "-q"], cwd=folder, stderr=subprocess.PIPE, text=True)
 first = os.path.join(folder, "bar_0002.vtkhdf")
 for _ in range(600):

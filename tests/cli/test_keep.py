@@ -1,11 +1,10 @@
 """A result that is no answer is not written; with --keep it is, and says everywhere that it is none."""
-import json
 import os
 import subprocess
 
 from matplotlib.image import imread
 
-from program import SOURCE, check, new_folder, run
+from program import SOURCE, check, new_folder, read_json, run, write
 
 CASE = """title: a block that is given too few iterations
 mesh:
@@ -40,14 +39,12 @@ def draw(result):
 
 
 def write_case(folder, most):
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(CASE.replace("MOST", str(most)))
+    write(folder, "case.yaml", CASE.replace("MOST", str(most)))
 
 
 def without_keep(folder, ranks):
     write_case(folder, 2)
-    with open(os.path.join(folder, "case.vtkhdf"), "w") as stream:
-        stream.write("precious")
+    write(folder, "case.vtkhdf", "precious")
     finished = run("solve", "case.yaml", "--json", "summary.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 1, f"exit status {finished.exit_code}: {finished.errors}")
     check("2 iterations" in finished.errors and "--keep" in finished.errors, finished.errors)
@@ -61,8 +58,7 @@ def with_keep(folder, ranks):
     finished = run("solve", "case.yaml", "--keep", "--json", "summary.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 1, f"exit status {finished.exit_code}: {finished.errors}")
     check("NO ANSWER" in finished.output and "marked as unfinished" in finished.output, finished.output)
-    with open(os.path.join(folder, "summary.json")) as stream:
-        report = json.load(stream)
+    report = read_json(folder, "summary.json")
     check(report["accepted"] is False and report["status"] == "unfinished", f"{report['status']}")
     check("2 iterations" in report["reasons"][0], f"{report['reasons']}")
     check(report["checks"]["relative_residual"] > 1e-8, "the residual is that of an answer")
@@ -77,8 +73,7 @@ def an_answer(folder, ranks):
     write_case(folder, 500)
     finished = run("solve", "case.yaml", "--keep", "--json", "summary.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 0, finished.errors)
-    with open(os.path.join(folder, "summary.json")) as stream:
-        report = json.load(stream)
+    report = read_json(folder, "summary.json")
     check(report["accepted"] is True and report["reasons"] == [], "an answer is called none")
     result = os.path.join(folder, "case.vtkhdf")
     check(field_data(result) == {}, "an answer is marked")

@@ -2,7 +2,7 @@
 import json
 import os
 
-from program import check, new_folder, run
+from program import check, new_folder, run, write
 
 CASE = """
 mesh:
@@ -20,8 +20,7 @@ output: {fields: [displacement]}
 
 
 def solve(folder, force, ranks=1, extra=(), word="off"):
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(CASE.replace("FORCE", force).replace("WORD", word))
+    write(folder, "case.yaml", CASE.replace("FORCE", force).replace("WORD", word))
     finished = run("solve", "case.yaml", "--json", "summary.json", *extra, ranks=ranks, folder=folder)
     check(finished.exit_code == 0, finished.errors)
     with open(os.path.join(folder, "summary.json")) as stream:

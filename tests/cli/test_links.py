@@ -3,7 +3,7 @@ import itertools
 import json
 import os
 
-from program import check, fewer, new_folder, run, solve
+from program import check, fewer, new_folder, run, solve, write
 
 RANKS = (1, 3)
 
@@ -127,8 +127,7 @@ output: {file: bar.vtkhdf}
 
 def load_cases_have_faces_of_their_own():
     folder = new_folder()
-    with open(os.path.join(folder, "bar.yaml"), "w") as stream:
-        stream.write(LOAD_CASES)
+    write(folder, "bar.yaml", LOAD_CASES)
     for ranks in fewer((1, 2)):
         finished = run("solve", "bar.yaml", "--json", "bar.json", ranks=ranks, folder=folder)
         check(finished.exit_code == 0, finished.errors)

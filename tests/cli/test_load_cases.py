@@ -8,7 +8,7 @@ import sys
 
 import h5py
 
-from program import MPIEXEC, PROGRAM, SOURCE, check, fewer, new_folder, read_points, run
+from program import MPIEXEC, PROGRAM, SOURCE, check, fewer, new_folder, read_json, read_points, run, write
 
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 import steps  # noqa: E402
@@ -36,14 +36,8 @@ NAMES = ("weight", "propped", "push", "far")
 
 def folder_with(text, name="beam.yaml"):
     folder = new_folder()
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
+    write(folder, name, text)
     return folder
-
-
-def load(folder, name):
-    with open(os.path.join(folder, name)) as stream:
-        return json.load(stream)
 
 
 def close(a, b, tolerance):
@@ -75,7 +69,7 @@ for ranks in fewer((1, 2, 4)):
     folder = folder_with(CASE)
     finished = run("solve", "beam.yaml", "--json", "beam.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 0 and "4 load cases" in finished.output, finished.output + finished.errors)
-    report = load(folder, "beam.json")
+    report = read_json(folder, "beam.json")
     check("4 steps of beam.vtkhdf" in finished.output and report["output"] == "beam.vtkhdf", finished.output)
     check_steps(os.path.join(folder, "beam.vtkhdf"), ranks)
     with open(os.path.join(folder, "beam_cases.csv")) as stream:
@@ -86,7 +80,7 @@ for ranks in fewer((1, 2, 4)):
     for name, row, one in zip(NAMES, rows, report["cases"]):
         alone = run("solve", "beam.yaml", "--case", name, "--json", "one.json", "-o", "one.vtkhdf", "-q", folder=folder)
         check(alone.exit_code == 0, alone.errors)
-        single = load(folder, "one.json")
+        single = read_json(folder, "one.json")
         check(one["title"] == single["title"] == "a beam: " + name and one["output"] == "beam.vtkhdf", one["title"])
         check(set(one) == set(single) - {"ledger"} | {"load_case"}, set(one) ^ set(single))
         for key in one["watched"]:
@@ -105,7 +99,7 @@ folder = folder_with(stretched.replace("total_force: [0, 0.01, 0]", "total_force
 finished = run("solve", "beam.yaml", "--json", "beam.json", "-q", folder=folder)
 check(finished.exit_code == 1 and "3 of 4 load cases have no answer, and nothing of them was written:" in finished.errors
       and "\n  weight: " in finished.errors, finished.errors)
-report = load(folder, "beam.json")
+report = read_json(folder, "beam.json")
 check([one["accepted"] for one in report["cases"]] == [False, False, True, False] and not report["accepted"], report)
 check(sorted(os.listdir(folder)) == ["beam.json", "beam.vtkhdf", "beam.yaml", "beam_cases.csv"], os.listdir(folder))
 check(steps.names(os.path.join(folder, "beam.vtkhdf")) == ["push"], "a case without an answer has a step")
@@ -120,7 +114,7 @@ folder = folder_with(CASE.replace("on: {boundary: xmax}, total_force: [0, 0.01, 
 finished = run("solve", "beam.yaml", "--json", "beam.json", "-q", folder=folder)
 check(finished.exit_code == 2 and finished.errors.count("there is no boundary 'east'") == 1
       and "1 of 4 load cases has no answer" in finished.errors and "\n  push: " in finished.errors, finished.errors)
-check([one["accepted"] for one in load(folder, "beam.json")["cases"]] == [True, True, False, True], finished.errors)
+check([one["accepted"] for one in read_json(folder, "beam.json")["cases"]] == [True, True, False, True], finished.errors)
 
 # --- check, and what is refused ---
 folder = folder_with(CASE)
@@ -150,7 +144,7 @@ for number, name in enumerate(NAMES, 1):
           listed)
 check(os.path.exists(os.path.join(folder, "xml_cases.csv")), os.listdir(folder))
 other = run("solve", "beam.yaml", "-q", "-o", "single.hdf", folder=folder)
-series = load(folder, "single.hdf.series")
+series = read_json(folder, "single.hdf.series")
 check([entry["name"] for entry in series["files"]] == [f"single_{name}.hdf" for name in NAMES], series)
 check([entry["time"] for entry in series["files"]] == [1, 2, 3, 4], series)
 
@@ -158,8 +152,7 @@ check([entry["time"] for entry in series["files"]] == [1, 2, 3, 4], series)
 check(run("solve", "beam.yaml", "-q", folder=folder).exit_code == 0, "the beam is not solved again")
 for field, words in (("load:far", ""), ("load:4", ""), ("load", "'load' has several steps; write load:STEP with one of these: weight, "
                                                         "propped, push, far"), ("load:pull", "'load' has no step 'pull'")):
-    with open(os.path.join(folder, "swollen.yaml"), "w") as stream:
-        stream.write(f"""mesh: {{file: beam.vtkhdf}}
+    write(folder, "swollen.yaml", f"""mesh: {{file: beam.vtkhdf}}
 materials: [{{region: all, youngs_modulus: 1, poissons_ratio: 0, eigenstrain: {{field: "{field}"}}}}]
 constraints: free_body
 large_rotation: off
@@ -168,7 +161,7 @@ watch: {{energy: {{strain_energy: all}}}}
     swollen = run("solve", "swollen.yaml", "--json", "swollen.json", "-q", ranks=2, folder=folder)
     check(swollen.exit_code == (2 if words else 0) and words in swollen.errors, f"{field}: {swollen.errors}")
     if not words:
-        check(load(folder, "swollen.json")["watched"]["energy"]["value"] > 1e-3, f"{field}: the load of another step was read")
+        check(read_json(folder, "swollen.json")["watched"]["energy"]["value"] > 1e-3, f"{field}: the load of another step was read")
 
 # --- settings, and standard input ---
 changed = run("solve", "beam.yaml", "--set", "cases.weight.loads.0.value.z=-0.02", "--set", "large_rotation=off",

@@ -6,7 +6,7 @@ import os
 import meshio
 import numpy as np
 
-from program import SOURCE, check, fewer, new_folder, run
+from program import SOURCE, check, fewer, new_folder, run, write
 
 STORED = os.path.join(SOURCE, "tests", "formats", "exchange")
 folder = new_folder()
@@ -54,12 +54,6 @@ def stored(name):
     return os.path.join(STORED, name)
 
 
-def write(name, text):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
-    return name
-
-
 NODES = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
 CARDS = NODES + "CTETRA,1,7,1,2,3,4\nCTRIA3,2,5,1,2,3\n"
 DECK = f"SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n{CARDS}ENDDATA\n"
@@ -72,7 +66,7 @@ for name, text, tets, regions in (
         ("tabs.bdf", CARDS.replace(",", "\t"), 1, ["volume-7"]),
         ("meshio.bdf", CARDS.replace("1,7,", "1,,").replace("2,5,", "2,,"), 1, ["volume"]),
         ("words.meshb", WORDS, 48, ["volume-1", "volume-2"]), ("binary.msh22", None, 48, ["left", "right"])):
-    done = run("mesh", write(name, text) if text else name, "--json", "-", folder=folder)
+    done = run("mesh", write(folder, name, text) if text else name, "--json", "-", folder=folder)
     check(done.exit_code == 0, f"{name}: {done.errors}")
     held = json.loads(done.output)
     check((held["tets"], [r["name"] for r in held["regions"]]) == (tets, regions), f"{name}: {held}")
@@ -90,7 +84,7 @@ CORD2S,3,,,,,,,1.
 ,1.
 CTETRA,1,7,1,2,3,4
 """
-done = run("mesh", write("systems.bdf", SYSTEMS), "--json", "-", folder=folder)
+done = run("mesh", write(folder, "systems.bdf", SYSTEMS), "--json", "-", folder=folder)
 held = json.loads(done.output)
 check(np.allclose([*held["low"], *held["high"], held["volume"]], [10, 0, 0, 11, 1, 1, 1 / 6], atol=1e-12), f"{held}")
 
@@ -119,7 +113,7 @@ $Elements
 2 4 2 2 2 1 2 3 4
 $EndElements
 """
-write("stray.yaml", CASE.format(mesh=write("stray.msh", STRAY), clamp="foot"))
+write(folder, "stray.yaml", CASE.format(mesh=write(folder, "stray.msh", STRAY), clamp="foot"))
 done = run("check", "stray.yaml", folder=folder)
 check(done.exit_code == 2 and "stray.yaml:3:" in done.errors and "boundary 'foot'" in done.errors and
       "on no tet" in done.errors, done.errors)
@@ -140,14 +134,14 @@ done = run("mesh", "sets.meshb", folder=folder)
 check(done.exit_code == 0 and "volume-7" in done.output and "24576" in done.output, done.errors)
 
 # Bulk data that were cut off at a line's end.
-done = run("mesh", write("short.bdf", DECK.replace("ENDDATA\n", "")), folder=folder)
+done = run("mesh", write(folder, "short.bdf", DECK.replace("ENDDATA\n", "")), folder=folder)
 check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)
 check(not run("mesh", "deck.bdf", folder=folder).errors, "a whole deck is warned of")
 
 # A text that was cut off is told so; a case is no mesh.
 text = open(stored("gmsh-linear.unv")).read()
 cut = text[:text.index("\n", len(text) // 3) - 2]
-done = run("mesh", write("cut.unv", cut), folder=folder)
+done = run("mesh", write(folder, "cut.unv", cut), folder=folder)
 check(done.exit_code == 2 and "cut.unv:" in done.errors and "is it complete?" in done.errors, done.errors)
 done = run("mesh", "a body.su2", folder=folder)
 check("meshio.read('a body.su2').write('a body.vtu')" in done.errors, done.errors)
@@ -262,15 +256,13 @@ check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2
 check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-with open(os.path.join(folder, "two.mesh"), "w") as stream:
-    stream.write("MeshVersionFormatted 2\nDimension 3\nVertices 8\n" + "".join("%g %g %g 0\n" % p for p in POINTS) +
-                 "Tetrahedra 2\n1 2 3 4 1\n6 7 8 5 2\nEnd\n")
+write(folder, "two.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 8\n" + "".join("%g %g %g 0\n" % p for p in POINTS) +
+             "Tetrahedra 2\n1 2 3 4 1\n6 7 8 5 2\nEnd\n")
 apart = inspect("two.mesh")
 check(len(apart["components"]) == 2 and apart["coincident_vertices"] == 3, f"{apart}")
 joined = inspect("two.mesh", "--merge", "1e-6")
 check(len(joined["components"]) == 1 and joined["nodes"] == 5, f"{joined}")
-with open(os.path.join(folder, "turned.mesh"), "w") as stream:
-    stream.write(open(os.path.join(folder, "two.mesh")).read().replace("6 7 8 5 2", "6 8 7 5 2"))
+write(folder, "turned.mesh", open(os.path.join(folder, "two.mesh")).read().replace("6 7 8 5 2", "6 8 7 5 2"))
 check(run("mesh", "turned.mesh", folder=folder).exit_code == 2, "an inverted tet is refused")
 check(inspect("turned.mesh", "--orient", "--merge", "1e-6")["tets"] == 2, "and turned where that is asked for")
 for times in "9", "-1", str(2**32 + 1):

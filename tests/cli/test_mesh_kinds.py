@@ -7,15 +7,9 @@ import h5py
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
-from program import SOURCE, check, fewer, new_folder, run
+from program import SOURCE, check, fewer, new_folder, run, write
 
 folder = new_folder()
-
-
-def write(name, text):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
-    return name
 
 
 def inspect(*arguments, ranks=1):
@@ -33,7 +27,7 @@ CURVED = """*NODE
 *SURFACE, NAME=BELOW
 1, S1
 """
-curved = inspect(write("curved.inp", CURVED))
+curved = inspect(write(folder, "curved.inp", CURVED))
 check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries"][0]["area"] - 0.5 - 0.2 / 3) < 1e-12,
       f"{curved}")
 
@@ -42,12 +36,12 @@ FOUR = "*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
 ONE = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n"
 for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NGEN\n1, 4, 1\n" + ONE, "*NGEN"),
                     ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "a second part"), ("", "is empty")):
-    done = run("mesh", write("told.inp", text), folder=folder)
+    done = run("mesh", write(folder, "told.inp", text), folder=folder)
     check(done.exit_code == 2 and words in done.errors, f"{words}: {done.errors}")
-held = inspect(write("mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
+held = inspect(write(folder, "mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
 check(held["tets"] == 1 and held["boundaries"][0]["name"] == "N" and held["boundaries"][0]["count"] == 4, f"{held}")
-write("nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n")
-held = inspect(write("included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
+write(folder, "nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n")
+held = inspect(write(folder, "included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
 check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")
 
 # MEDIT's quadratic solids, whose nodes may be in any order behind the vertices. The bodies are sheared by x + y z / 5, which keeps volumes.
@@ -71,7 +65,7 @@ def medit(shapes, seed):
 
 
 for seed, (shapes, volume) in enumerate(((("HexahedraQ2", "QuadrilateralsQ2"), 1), (("PrismsP2",), 1 / 2), (("PyramidsP2", "QuadrilateralsQ2"), 1 / 3))):
-    held = inspect(write("middles.mesh", medit(shapes, seed)))
+    held = inspect(write(folder, "middles.mesh", medit(shapes, seed)))
     check(held["order"] == 2 and abs(held["volume"] - volume) < 1e-12 and held["regions"][0]["name"] == "volume-3", f"{shapes}: {held}")
     check([(b["count"], round(b["area"], 12)) for b in held["boundaries"]] == ([(2, 1)] if len(shapes) > 1 else []), f"{held['boundaries']}")
 
@@ -89,7 +83,7 @@ held = inspect("other.vtkhdf", "--merge", "1e-9")
 check({r["name"]: round(r["volume"], 12) for r in held["regions"]} == {"volume-4": 1, "volume-5": 0.5} and
       [(b["name"], b["count"], b["area"]) for b in held["boundaries"]] == [("surface-6", 2, 1)] and
       len(held["components"]) == 1 and held["misfit_faces"] == held["cracked_faces"] == 0, f"{held}")
-write("other.yaml", """mesh: {file: other.vtkhdf, merge: 1e-9}
+write(folder, "other.yaml", """mesh: {file: other.vtkhdf, merge: 1e-9}
 materials: [{region: all, youngs_modulus: {field: modulus}, poissons_ratio: 0}]
 constraints: [{on: {boundary: surface-6}, displacement: [0, 0, 0]}, {on: {plane: {point: [1, 0, 0], normal: [1, 0, 0]}}, displacement: [0.1, free, free]}]
 large_rotation: off
@@ -143,7 +137,7 @@ _surf-1_S1, s1
 *Elastic
 1., .3
 """
-first = inspect(write("quoted.inp", QUOTED), "again.inp")
+first = inspect(write(folder, "quoted.inp", QUOTED), "again.inp")
 for named in (first, inspect("again.inp")):
     check({r["name"]: r["tets"] for r in named["regions"]} == {"part one": 1, "Rest": 1}, f"{named['regions']}")
     check({(b["name"], b["of"], b["count"]) for b in named["boundaries"]} ==

@@ -1,7 +1,6 @@
 """A path as a user meets it: a file a step that VTK reads, the list of them, the history and its picture, the table and JSON; and a run
 that is killed at any moment and resumed leaves the same bytes as one that was not."""
 import csv
-import json
 import os
 import random
 import shutil
@@ -9,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from program import MPIEXEC, PROGRAM, SOURCE, check, new_folder, read_points, run
+from program import MPIEXEC, PROGRAM, SOURCE, check, new_folder, read_json, read_points, run, write
 
 CASE = """title: a bar that is pulled and let go
 mesh: {block: {size: [4, 1, 1], divisions: [12, 4, 4]}}
@@ -31,8 +30,7 @@ NAMES = [f"bar_{k:04d}.vtkhdf" for k in range(1, 5)] + ["bar.hdf.series", "bar_h
 
 def folder_with_case(text=CASE):
     folder = new_folder()
-    with open(os.path.join(folder, "bar.yaml"), "w") as stream:
-        stream.write(text)
+    write(folder, "bar.yaml", text)
     return folder
 
 
@@ -50,10 +48,8 @@ finished = run("solve", "bar.yaml", "--json", "bar.json", folder=whole)
 check(finished.exit_code == 0, finished.errors)
 check("path of 4 steps" in finished.output and "bar.hdf.series" in finished.output, finished.output)
 check(not os.path.exists(os.path.join(whole, "bar.vtkhdf")), "a file of one answer was written beside those of the steps")
-with open(os.path.join(whole, "bar.json")) as stream:
-    report = json.load(stream)
-with open(os.path.join(whole, "bar.hdf.series")) as stream:
-    series = json.load(stream)
+report = read_json(whole, "bar.json")
+series = read_json(whole, "bar.hdf.series")
 check(series["file-series-version"] == "1.0", series)
 check([entry["time"] for entry in series["files"]] == [0.25, 0.5, 0.75, 1], series)
 with open(os.path.join(whole, "bar_history.csv")) as stream:
@@ -138,8 +134,7 @@ for text in (LINEAR, LINEAR.replace("ratio: 0.3", "ratio: 0.5") + "element: {ord
 for text, ranks, words in ((CASE.replace("large_rotation: on", "large_rotation: on\nformulation: classical"), 2,
                             "it was made with formulation: consistent, and this run has formulation: classical"),
                            (CASE + "# changed\n", 1, "the case file has changed since")):
-    with open(os.path.join(whole, "bar.yaml"), "w") as stream:
-        stream.write(text)
+    write(whole, "bar.yaml", text)
     refused = run("solve", "bar.yaml", "--resume", ranks=ranks, folder=whole)
     check(refused.exit_code == 2 and words in refused.errors, refused.errors)
 check(contents(whole) == truth, "a refused run left other bytes")
@@ -148,8 +143,7 @@ still = folder_with_case(CASE.replace("path: {times: [0.25, 0.5, 0.75, 1]}\n", "
 refused = run("solve", "bar.yaml", "--resume", folder=still)
 check(refused.exit_code == 2 and "--resume goes on with a path, and the case has none" in refused.errors, refused.errors)
 shutil.copy(os.path.join(whole, "bar_0001.vtkhdf"), os.path.join(still, "bar_0002.vtkhdf"))
-with open(os.path.join(still, "bar.yaml"), "w") as stream:
-    stream.write(CASE.replace("mesh: {block: {size: [4, 1, 1], divisions: [12, 4, 4]}}", "mesh: {file: bar_0002.vtkhdf}"))
+write(still, "bar.yaml", CASE.replace("mesh: {block: {size: [4, 1, 1], divisions: [12, 4, 4]}}", "mesh: {file: bar_0002.vtkhdf}"))
 refused = run("solve", "bar.yaml", folder=still)
 check(refused.exit_code == 2 and "would be written over the mesh that the case reads" in refused.errors, refused.errors)
 

@@ -3,7 +3,7 @@ import csv
 import json
 import os
 
-from program import check, fewer, new_folder, run
+from program import check, fewer, new_folder, run, write
 
 BLOCK = "mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
 STEEL = "materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]\n"
@@ -13,8 +13,7 @@ PULL = "loads: [{on: {boundary: xmax}, total_force: [1, 0, 0]}]\n"
 
 def call(text, *arguments, ranks=1):
     folder = new_folder()
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(text)
+    write(folder, "case.yaml", text)
     return run(*arguments, ranks=ranks, folder=folder), folder
 
 

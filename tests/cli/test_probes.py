@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkProbeFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from program import check, fewer, new_folder, run
+from program import check, fewer, new_folder, run, write
 
 PARTS = """
 large_rotation: off
@@ -39,8 +39,7 @@ folder = new_folder()
 
 
 def solve(text, ranks=1, name="case.yaml", expected=0):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
+    write(folder, name, text)
     finished = run("solve", name, "--json", "summary.json", ranks=ranks, folder=folder)
     check(finished.exit_code == expected, f"{ranks} ranks: {finished.errors}")
     if expected:

@@ -1,8 +1,7 @@
 """Quadratic tets: p-multigrid, the direct solver and any number of ranks give one pose, and it is softer than that of linear tets."""
 import json
-import os
 
-from program import SANITIZED, check, new_folder, read_points, run as run_program, solve
+from program import SANITIZED, check, new_folder, read_points, run as run_program, solve, write
 
 CASE = """
 title: a short tube of quadratic tets
@@ -47,8 +46,7 @@ def foreseen_sizes_are_the_real_ones():
                   "octant: {radii: [1, 2], divisions: {around: 2, radial: 1}}",
                   "tube: {axis: x, length: 1, radii: [1, 2], divisions: {around: 6, radial: 1, axial: 2}}"):
         folder = new_folder()
-        with open(os.path.join(folder, "case.yaml"), "w") as stream:
-            stream.write(FORESEEN.replace("SHAPE", shape))
+        write(folder, "case.yaml", FORESEEN.replace("SHAPE", shape))
         foreseen = run_program("explain", "case.yaml", "--json", folder=folder)
         real = run_program("check", "case.yaml", "--json", folder=folder)
         check(foreseen.exit_code == 0, f"explain: {foreseen.errors}")

@@ -1,17 +1,10 @@
 """Bars of hexahedra as Abaqus has them bend and stretch as their formulas say; a file of axes has a line for each element."""
 import json
-import os
 
-from program import SANITIZED, check, fewer, new_folder, run
+from program import SANITIZED, check, fewer, new_folder, run, write
 
 folder = new_folder()
 FACES = {"S6": 0, "S4": 1}  # at x = 0, at the end
-
-
-def write(name, text):
-    with open(os.path.join(folder, name), "w") as stream:
-        stream.write(text)
-    return name
 
 
 def bar(name, length, along, across, quadratic, by_nodes=False):
@@ -41,7 +34,7 @@ def bar(name, length, along, across, quadratic, by_nodes=False):
         lines += [f"*NSET, NSET={name_of}"] + [str(n) for (a, _, _), n in number.items() if a == end]
     for face, name_of in () if by_nodes else (("S6", "ROOT"), ("S4", "TIP")):
         lines += [f"*SURFACE, NAME={name_of}"] + [f"{e}, {face}" for e in ends[face]]
-    write(name, "\n".join(["*NODE", *places, *lines, ""]))
+    write(folder, name, "\n".join(["*NODE", *places, *lines, ""]))
 
 
 CASE = """mesh: {{file: {mesh}}}
@@ -56,7 +49,7 @@ watch: {{tip: {{displacement: {{nearest: [{length}, 0.5, 0.5]}}, component: {com
 
 
 def run_bar(mesh, force, component="x", element="", length=10, ranks=1, modulus="1000", axes=""):
-    write("case.yaml", CASE.format(**locals()))
+    write(folder, "case.yaml", CASE.format(**locals()))
     return run("solve", "case.yaml", "--json", "-", "--output", "out.vtkhdf", folder=folder, ranks=ranks)
 
 
@@ -93,12 +86,12 @@ check(done.errors.count("linear.inp: split 80 hexahedra into ") == 1 and "volume
 
 # Axes in a file have a line for each element: along x the first has E1, the second E2.
 bar("two.inp", 2, 2, 1, False)
-write("axes.txt", "1 0 0 0 1 0 0 0 1\n0 1 0 -1 0 0 0 0 1\n")
+write(folder, "axes.txt", "1 0 0 0 1 0 0 0 1\n0 1 0 -1 0 0 0 0 1\n")
 how = {"modulus": "[1000, 2000, 500]", "axes": ", axes: {cells: axes.txt}", "length": 2}
 for ranks in fewer((1, 2)):
     found = tip("two.inp", "[1, 0, 0]", ranks=ranks, **how)
     check(abs(found - 1 / 1000 - 1 / 2000) < 1e-9, f"two elements with axes of their own are stretched by {found}")
-write("axes.txt", "1 0 0 0 1 0 0 0 1\n")
+write(folder, "axes.txt", "1 0 0 0 1 0 0 0 1\n")
 done = run_bar("two.inp", "[1, 0, 0]", **how)
 check(done.exit_code == 2 and "expected 2" in done.errors, done.errors)
 
@@ -113,13 +106,13 @@ def two_parts(name, across):
         for c in range(across):
             corners = [(a, b + j, c + k) for k in (0, 1) for a, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
             lines.append(", ".join(map(str, [2 + b * across + c] + [last - (a * len(steps) + j) * len(steps) - k for a, j, k in corners])))
-    return write(name, "\n".join(["*NODE"] + [f"{n + 1}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(nodes)] + lines + [""]))
+    return write(folder, name, "\n".join(["*NODE"] + [f"{n + 1}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(nodes)] + lines + [""]))
 
 
 counts = json.loads(run("mesh", two_parts("pair.inp", 1), "--merge", "1e-6", "--json", "-", folder=folder).output)
 check(counts["surface_faces"] == 20 and counts["misfit_faces"] == counts["cracked_faces"] == 0, f"{counts}")
 two_parts("hanging.inp", 2)
-write("hanging.yaml", """mesh: {file: hanging.inp, merge: 1e-6}
+write(folder, "hanging.yaml", """mesh: {file: hanging.inp, merge: 1e-6}
 materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
 constraints: [{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}]
 """)

@@ -1,8 +1,7 @@
 """The solver's strategies as a user sees them: the plan, the next strategy in summary and JSON, refusals; on one rank and on two."""
 import json
-import os
 
-from program import check, fewer, new_folder, read_points, run, solve
+from program import check, fewer, new_folder, read_json, read_points, run, solve, write
 
 CASE = """
 title: a tube, stiff around
@@ -105,8 +104,7 @@ def all_that_was_tried_is_told_whole():
     folder = new_folder()
     hopeless = case(CRIPPLED + ", factor_memory: 1, max_iterations: 125")
     finished, _, path = solve(hopeless, folder=folder, extra=("--keep",))
-    with open(os.path.join(folder, "summary.json")) as stream:
-        report = json.load(stream)
+    report = read_json(folder, "summary.json")
     steps = report["solver"]["strategies"]
     check(len(steps) == 5, f"five steps are wanted: {steps}")
     reason = report["reasons"][0]
@@ -133,8 +131,7 @@ def the_plan_is_explained():
     folder = new_folder()
     first = "metric"
     for modulus in ("1e9", "1e12"):
-        with open(os.path.join(folder, "case.yaml"), "w") as stream:
-            stream.write(case("method: auto", modulus=modulus))
+        write(folder, "case.yaml", case("method: auto", modulus=modulus))
         finished = run("explain", "case.yaml", "--json", folder=folder)
         check(finished.exit_code == 0, finished.errors)
         plan = json.loads(finished.output)["solver"]

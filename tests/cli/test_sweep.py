@@ -5,7 +5,7 @@ import json
 import os
 import subprocess
 
-from program import PROGRAM, check, fewer, new_folder, run
+from program import PROGRAM, check, fewer, new_folder, read_json, run, write
 
 CASE = """title: a bar
 mesh: {block: {size: [4, 1, 1], divisions: [6, 2, 2]}}
@@ -19,8 +19,7 @@ sweep:
 """.replace("region: wood", "region: all")
 
 folder = new_folder()
-with open(os.path.join(folder, "bar.yaml"), "w") as stream:
-    stream.write(CASE)
+write(folder, "bar.yaml", CASE)
 
 
 def end_of(*settings):
@@ -34,8 +33,7 @@ for ranks in fewer((1, 2)):
     check(swept.exit_code == 0 and "6 runs" in swept.output and "end" in swept.output, swept.output + swept.errors)
     with open(os.path.join(folder, "bar.csv")) as stream:
         rows = list(csv.DictReader(stream))
-    with open(os.path.join(folder, "bar.json")) as stream:
-        report = json.load(stream)
+    report = read_json(folder, "bar.json")
     check([(row["loads.0.value.x"], row["materials.all.E1"]) for row in rows]
           == [(x, e) for x in ("1", "2", "3") for e in ("500", "1000")], rows)
     check(report["keys"] == ["loads.0.value.x", "materials.all.E1"] and report["watched"] == ["end"], report)
@@ -83,8 +81,7 @@ for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
                          (("--csv", "bar.yaml"), "would be written over the case itself")):
     refused = run("sweep", "bar.yaml", *arguments, folder=folder)
     check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")
-with open(os.path.join(folder, "plain.yaml"), "w") as stream:
-    stream.write(CASE.split("sweep:")[0] + "cases: [{name: one}]\n")
+write(folder, "plain.yaml", CASE.split("sweep:")[0] + "cases: [{name: one}]\n")
 check("over what?" in run("sweep", "plain.yaml", folder=folder).errors, "a sweep over nothing")
 named = run("sweep", "plain.yaml", "--over", "loads.0.value.x=1,2", folder=folder)
 check(named.exit_code == 2 and "name it, as in --case one" in named.errors, named.errors)

@@ -3,7 +3,7 @@ import json
 import os
 import subprocess
 
-from program import PROGRAM, check, new_folder, run
+from program import PROGRAM, check, new_folder, run, write
 
 CASE = """title: a bar pulled along
 mesh:
@@ -65,14 +65,12 @@ def a_case_comes_from_standard_input(folder):
 def impossible_sizes_are_told_by_their_limit(folder):
     """2^31 - 1 unknowns are 715,827,882 nodes, which no ranks help beyond; the nonzeros of a rank they do help."""
     for divisions, refine in (([100000, 100000, 100000], 0), ([1000000, 1000000, 1000000], 8), ([894, 894, 894], 0)):
-        with open(os.path.join(folder, "huge.yaml"), "w") as stream:
-            stream.write(CASE.replace("[4, 2, 2]}", f"{divisions}}}\n  refine: {refine}"))
+        write(folder, "huge.yaml", CASE.replace("[4, 2, 2]}", f"{divisions}}}\n  refine: {refine}"))
         for command in "explain", "check", "solve":
             refused = run(command, "huge.yaml", folder=folder)
             check(refused.exit_code == 2 and "2^31 - 1 over all ranks, which is 715827882 nodes: use a coarser mesh"
                   in refused.errors and not refused.output, f"{command} {divisions}: {refused.output}{refused.errors}")
-    with open(os.path.join(folder, "large.yaml"), "w") as stream:
-        stream.write(CASE.replace("[4, 2, 2]", "[890, 890, 890]"))
+    write(folder, "large.yaml", CASE.replace("[4, 2, 2]", "[890, 890, 890]"))
     told = run("explain", "large.yaml", folder=folder)
     # Kuhn's six tets a cell: 15 blocks a vertex, each of 9 nonzeros
     least = 891 ** 3 * 15 * 9 / (2 ** 31 - 1)
@@ -84,9 +82,8 @@ def impossible_sizes_are_told_by_their_limit(folder):
 
 def explain_says_where_each_modulus_goes(folder):
     """Axes with the fibre along e1, but a material whose axis is e3: nothing else would show it."""
-    with open(os.path.join(folder, "fibre.yaml"), "w") as stream:
-        stream.write(CASE.replace("youngs_modulus: 1000", "axes: {fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]}, "
-                                  "youngs_modulus: {plane: 1, axis: 88}"))
+    write(folder, "fibre.yaml", CASE.replace("youngs_modulus: 1000", "axes: {fixed: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]}, "
+                              "youngs_modulus: {plane: 1, axis: 88}"))
     words = "E = 88 along e3 (the axis), 1 along e1 and e2"
     axes = "e1 = (0, 1, 0), e2 = (-1, 0, 0), e3 = (0, 0, 1)"
     told = run("explain", "fibre.yaml", folder=folder)
@@ -97,8 +94,7 @@ def explain_says_where_each_modulus_goes(folder):
 
 def what_does_not_fit_is_said(folder):
     """A body of 2e9 tets is foreseen without being made; the bar fits."""
-    with open(os.path.join(folder, "huge.yaml"), "w") as stream:
-        stream.write(CASE.replace("[4, 2, 2]", "[700, 700, 700]"))
+    write(folder, "huge.yaml", CASE.replace("[4, 2, 2]", "[700, 700, 700]"))
     for case, fits in (("bar.yaml", True), ("huge.yaml", False)):
         foreseen = run("explain", case, folder=folder)
         check(foreseen.exit_code == 0, foreseen.errors)
@@ -111,8 +107,7 @@ def what_does_not_fit_is_said(folder):
 
 def main():
     folder = new_folder()
-    with open(os.path.join(folder, "bar.yaml"), "w") as stream:
-        stream.write(CASE)
+    write(folder, "bar.yaml", CASE)
     what_does_not_fit_is_said(folder)
     explain_says_where_each_modulus_goes(folder)
 

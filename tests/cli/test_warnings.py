@@ -1,8 +1,7 @@
 """Every warning that goes to standard error stands in the JSON report too."""
 import json
-import os
 
-from program import check, new_folder, run
+from program import check, new_folder, run, write
 
 # A block in which a vertex is used by no tet, nearly incompressible, with a vertex watched where there is none.
 MESH = """$MeshFormat
@@ -50,8 +49,7 @@ def compare(words, folder, kinds, json_words, exit_code=0):
 def main():
     folder = new_folder()
     for name, text in [("tet.msh", MESH), ("case.yaml", CASE)]:
-        with open(os.path.join(folder, name), "w") as stream:
-            stream.write(text)
+        write(folder, name, text)
     compare(["solve", "case.yaml"], folder, KINDS, ["--json", "-"])
     compare(["check", "case.yaml"], folder, KINDS, ["--json"])
     compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])

@@ -1,9 +1,8 @@
 """What a case watches: printed by solve, in its JSON, the same on two ranks; selections that are not there refused."""
-import json
 import os
 import tempfile
 
-from program import SOURCE, check, run, solve
+from program import SOURCE, check, run, solve, write
 
 os.environ["ORTHOSTAT_CASES"] = os.path.join(SOURCE, "cases")
 
@@ -188,8 +187,7 @@ def nothing_watched_is_nothing_in_json():
 
 def refused(name, text, words):
     folder = tempfile.mkdtemp(prefix="orthostat-")
-    with open(os.path.join(folder, "case.yaml"), "w") as stream:
-        stream.write(text)
+    write(folder, "case.yaml", text)
     for command in ("check", "solve"):
         finished = run(command, "case.yaml", folder=folder)
         check(finished.exit_code == 2, f"{name}: {command} exits {finished.exit_code}: {finished.output}")

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "core/memory.h"
 #include "core/parallel/halo.h"
 #include "support.h"
 
@@ -28,7 +27,6 @@ static OstHalo *make_ring(OstLocal *ghosts)
 
 static void ghosts_receive_their_owners_values(void **state)
 {
-    (void)state;
     OstLocal ghosts;
     OstHalo *halo = make_ring(&ghosts);
     double x[2 * (OWNED + 2)] = {0};
@@ -53,7 +51,6 @@ static void ghosts_receive_their_owners_values(void **state)
 
 static void sums_return_to_the_owners(void **state)
 {
-    (void)state;
     OstLocal ghosts;
     OstHalo *halo = make_ring(&ghosts);
     double x[OWNED + 2];
@@ -69,7 +66,6 @@ static void sums_return_to_the_owners(void **state)
 
 static void a_subset_keeps_the_flagged_entries(void **state)
 {
-    (void)state;
     OstLocal ghosts;
     OstHalo *halo = make_ring(&ghosts);
     OstLocal keep[OWNED + 2]; /* all but each rank's first entry */
@@ -94,7 +90,6 @@ static void a_subset_keeps_the_flagged_entries(void **state)
 
 static void one_ranks_failure_is_everybodys(void **state)
 {
-    (void)state;
     const int last = ost_rank(ctx) == ost_size(ctx) - 1;
     const OstStatus mine = last ? OST_RAISE(ctx, OST_INVALID_INPUT, "tet 17 is flat") : OST_SUCCESS;
     assert_failure(ost_agree(ctx, mine), OST_INVALID_INPUT, "tet 17 is flat");

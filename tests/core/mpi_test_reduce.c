@@ -6,7 +6,6 @@
 
 static void sums_and_extremes_are_of_all_ranks(void **state)
 {
-    (void)state;
     const int ranks = ost_size(ctx);
     const int rank = ost_rank(ctx);
     double sum[2] = {1.0, rank}, most[2] = {rank, -rank}, least[2] = {rank, -rank};
@@ -28,7 +27,6 @@ static void sums_and_extremes_are_of_all_ranks(void **state)
 
 static void numbers_go_on_from_rank_to_rank(void **state)
 {
-    (void)state;
     const OstGlobal rank = ost_rank(ctx);
     OstGlobal first = -1, total = -1;
     assert_success(ost_number_from(ctx, rank + 1, &first, &total));
@@ -38,7 +36,6 @@ static void numbers_go_on_from_rank_to_rank(void **state)
 
 static void items_are_gathered_in_the_order_of_ranks(void **state)
 {
-    (void)state;
     const int rank = ost_rank(ctx), ranks = ost_size(ctx);
     const double mine[2] = {rank, rank + 0.5};
     const OstLocal count = rank % 3; /* some ranks have none, or one */
@@ -54,7 +51,6 @@ static void items_are_gathered_in_the_order_of_ranks(void **state)
 
 static void contexts_are_made_by_a_number_and_on_all(void **state)
 {
-    (void)state;
     OstContext *numbered = NULL, *all = NULL;
     int runs = 0;
     assert_int_equal(ost_context_create_by_number(MPI_Comm_c2f(MPI_COMM_SELF), &numbered), OST_SUCCESS);
@@ -71,7 +67,6 @@ static void contexts_are_made_by_a_number_and_on_all(void **state)
 
 static void a_machine_has_more_than_is_free(void **state)
 {
-    (void)state;
     double installed = 0.0, available = 0.0;
     assert_success(ost_memory_installed(ctx, &installed));
     assert_success(ost_memory_free(ctx, &available));

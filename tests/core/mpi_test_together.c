@@ -62,7 +62,6 @@ static void ask_five_times(void *data, int number)
 
 static void requests_of_one_kind_are_served_at_once(void **state)
 {
-    (void)state;
     Sums sums = {.at_once = TASKS};
     Data data = {.sums = &sums};
     assert_success(ost_together_run(ctx, TASKS, ask, &data));
@@ -81,7 +80,6 @@ static void requests_of_one_kind_are_served_at_once(void **state)
 /* 25 requests by threes: two that are left over do not go by themselves, but with the first that comes back. */
 static void what_a_full_service_leaves_waits_for_more(void **state)
 {
-    (void)state;
     Sums sums = {.at_once = 3};
     Data data = {.sums = &sums};
     assert_success(ost_together_run(ctx, TASKS, ask_five_times, &data));
@@ -120,7 +118,6 @@ static void those_that_gather_go_on_together(void **state)
 
 static void a_failure_reaches_all_that_were_served(void **state)
 {
-    (void)state;
     Sums sums = {.at_once = TASKS, .fails = OST_NOT_CONVERGED};
     Data data = {.sums = &sums};
     assert_success(ost_together_run(ctx, TASKS, ask, &data));
@@ -130,7 +127,6 @@ static void a_failure_reaches_all_that_were_served(void **state)
 
 static void outside_of_tasks_a_request_is_served_alone(void **state)
 {
-    (void)state;
     Sums sums = {0};
     double value = 3.0;
     assert_success(ost_together(ctx, square, TASKS, &sums, &value));

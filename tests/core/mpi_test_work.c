@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "core/error.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
@@ -25,7 +24,6 @@ static OstHalo *make_row(OstLocal *ghosts)
 
 static void an_exchange_is_a_message_to_each_neighbour(void **state)
 {
-    (void)state;
     OstLocal ghosts;
     OstHalo *halo = make_row(&ghosts);
     double x[3 * (OWNED + 2)] = {0};
@@ -41,7 +39,6 @@ static void an_exchange_is_a_message_to_each_neighbour(void **state)
 
 static void sums_and_lists_over_all_ranks_are_counted(void **state)
 {
-    (void)state;
     OstGlobal end[64], first, total;
     double sums[2] = {1.0, 2.0};
     ost_ledger_forget_work(ctx);
@@ -56,7 +53,6 @@ static void sums_and_lists_over_all_ranks_are_counted(void **state)
 
 static void work_is_booked_to_account_and_level(void **state)
 {
-    (void)state;
     ost_ledger_forget_work(ctx);
     ost_ledger_enter(ctx, OST_LEDGER_SOLVE);
     ost_ledger_multiplied(ctx, 5.0);

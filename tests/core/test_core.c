@@ -8,7 +8,6 @@
 
 static void memory_is_booked_and_released(void **state)
 {
-    (void)state;
     double *values = NULL;
     ost_ledger_enter(ctx, OST_LEDGER_MESH);
     assert_success(OST_NEW(ctx, &values, 1000));
@@ -24,7 +23,6 @@ static void memory_is_booked_and_released(void **state)
 
 static void impossible_sizes_are_refused(void **state)
 {
-    (void)state;
     double *values = NULL;
     assert_failure(OST_NEW(ctx, &values, SIZE_MAX / 4), OST_OUT_OF_MEMORY, "out of memory");
     assert_null(values);
@@ -32,7 +30,6 @@ static void impossible_sizes_are_refused(void **state)
 
 static void accounts_nest_and_add_up(void **state)
 {
-    (void)state;
     const double start = ost_seconds();
     const double before =
         ost_ledger_entry(ctx, OST_LEDGER_SOLVE).seconds + ost_ledger_entry(ctx, OST_LEDGER_OUTPUT).seconds;
@@ -52,7 +49,6 @@ static void accounts_nest_and_add_up(void **state)
 
 static void eigenvalues_of_a_known_matrix(void **state)
 {
-    (void)state;
     const double a[9] = {2, -1, 0, -1, 2, -1, 0, -1, 2}; /* eigenvalues 2 - 2 cos(k π / 4), k = 1..3 */
     double values[3], vectors[9];
     assert_success(ost_symmetric_eigen(ctx, 3, a, values, vectors));
@@ -67,7 +63,6 @@ static void eigenvalues_of_a_known_matrix(void **state)
 
 static void cholesky_finds_the_bad_pivot(void **state)
 {
-    (void)state;
     double good[9] = {4, 2, 0, 2, 5, 3, 0, 3, 10};
     double bad[9] = {4, 2, 0, 2, 1, 3, 0, 3, 10};
     assert_int_equal(ost_cholesky(3, good), 0);
@@ -79,7 +74,6 @@ static void cholesky_finds_the_bad_pivot(void **state)
 
 static void inverse_times_matrix_is_identity(void **state)
 {
-    (void)state;
     const double a[9] = {3, 1, 2, 0, 4, -1, 2, 2, 5};
     double b[9], c[9];
     assert_close(ost_invert3(a, b), ost_determinant3(a), 0.0);
@@ -95,7 +89,6 @@ static void hear(void *listener, const char *text)
 
 static void warnings_are_heard_even_when_quiet(void **state)
 {
-    (void)state;
     char heard[64] = "";
     const OstLogLevel before = ost_log_level(ctx);
     ost_log_set_level(ctx, OST_LOG_QUIET);
@@ -113,7 +106,6 @@ static void warnings_are_heard_even_when_quiet(void **state)
 
 static void every_status_has_its_exit_code(void **state)
 {
-    (void)state;
     assert_int_equal(ost_status_exit_code(OST_SUCCESS), 0);
     assert_int_equal(ost_status_exit_code(OST_INVALID_INPUT), 2);
     assert_int_equal(ost_status_exit_code(OST_NOT_CONVERGED), 1);
@@ -132,7 +124,6 @@ static void assert_json_text(const char *text, const char *expected)
 /* JSON refuses a text whose last character a buffer has cut, and with it all that it stands in. */
 static void a_text_that_was_cut_is_json_all_the_same(void **state)
 {
-    (void)state;
     assert_json_text("", "");
     assert_json_text("p·Ap", "p·Ap");
     assert_json_text("p\xc2", "p");         /* of a character of two bytes */
@@ -142,7 +133,6 @@ static void a_text_that_was_cut_is_json_all_the_same(void **state)
 /* Asked before libraries are called that end the process where memory runs out. */
 static void memory_that_is_not_there_is_refused_before_it_is_asked_for(void **state)
 {
-    (void)state;
     assert_success(ost_memory_foresee(ctx, 1e6, "a library"));
     assert_failure(ost_memory_foresee(ctx, 1e16, "a library"), OST_OUT_OF_MEMORY, "a library would need another");
     assert_int_equal(ost_ledger_bytes(ctx), 0);

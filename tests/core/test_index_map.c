@@ -5,7 +5,6 @@
 
 static void keys_are_numbered_in_the_order_in_which_they_first_come(void **state)
 {
-    (void)state;
     OstIndex *index = NULL;
     OstLocal place;
     assert_success(ost_index_create(ctx, 1, &index));
@@ -23,7 +22,6 @@ static void keys_are_numbered_in_the_order_in_which_they_first_come(void **state
 
 static void keys_may_have_several_words(void **state)
 {
-    (void)state;
     OstIndex *index = NULL;
     OstLocal place;
     assert_success(ost_index_create(ctx, 3, &index));
@@ -41,7 +39,6 @@ static void keys_may_have_several_words(void **state)
 
 static void a_set_keeps_each_number_once(void **state)
 {
-    (void)state;
     OstNumberSet set = {0};
     for (OstGlobal i = 0; i < 100000; i++)
         assert_success(ost_number_set_add(ctx, &set, (i * 7919) % 5003));
@@ -55,7 +52,6 @@ static void a_set_keeps_each_number_once(void **state)
 
 static void sorted_numbers_come_once_and_are_found(void **state)
 {
-    (void)state;
     OstGlobal number[6] = {(OstGlobal)1 << 40, 7, 3, 7, -1, 3};
     assert_int_equal(ost_numbers_sort(6, number), 4);
     assert_int_equal(number[0], -1);

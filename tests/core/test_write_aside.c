@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "core/memory.h"
 #include "core/write_aside.h"
 #include "support.h"
 
@@ -19,7 +18,6 @@ static const char *in_folder(const char *name)
 
 static int make_folder(void **state)
 {
-    (void)state;
     const char *temporary = getenv("TMPDIR");
     snprintf(folder, sizeof folder, "%s/orthostat-aside-XXXXXX", temporary ? temporary : P_tmpdir);
     return mkdtemp(folder) ? 0 : -1;
@@ -37,7 +35,6 @@ static int files_in_folder(void)
 
 static int remove_folder(void **state)
 {
-    (void)state;
     DIR *files = opendir(folder);
     for (struct dirent *file = readdir(files); file; file = readdir(files))
         remove(in_folder(file->d_name));
@@ -69,7 +66,6 @@ static void assert_holds(const char *name, const char *words)
 
 static void a_file_is_replaced_as_a_whole(void **state)
 {
-    (void)state;
     assert_success(ost_write_aside(ctx, in_folder("file"), write_words, "first"));
     assert_success(ost_write_aside(ctx, in_folder("file"), write_words, "second"));
     assert_holds("file", "second");
@@ -78,7 +74,6 @@ static void a_file_is_replaced_as_a_whole(void **state)
 
 static void a_failure_leaves_the_old_file_and_nothing_else(void **state)
 {
-    (void)state;
     assert_success(ost_write_aside(ctx, in_folder("file"), write_words, "old"));
     assert_failure(ost_write_aside(ctx, in_folder("file"), write_and_fail, "half"), OST_CHECK_FAILED, "no more");
     assert_holds("file", "old");
@@ -87,7 +82,6 @@ static void a_failure_leaves_the_old_file_and_nothing_else(void **state)
 
 static void two_runs_do_not_share_a_name(void **state)
 {
-    (void)state;
     OstAside one = {0}, two = {0};
     assert_success(ost_aside_open(ctx, in_folder("file"), &one));
     assert_success(ost_aside_open(ctx, in_folder("file"), &two));
@@ -100,7 +94,6 @@ static void two_runs_do_not_share_a_name(void **state)
 
 static void what_a_link_points_to_is_replaced(void **state)
 {
-    (void)state;
     char deep[300], middle[300];
     struct stat facts;
     snprintf(deep, sizeof deep, "%s/deep", folder);
@@ -120,7 +113,6 @@ static void what_a_link_points_to_is_replaced(void **state)
 
 static void a_circle_of_links_is_refused(void **state)
 {
-    (void)state;
     assert_int_equal(symlink("circle", in_folder("circle")), 0);
     assert_failure(ost_write_aside(ctx, in_folder("circle"), write_words, "x"), OST_FILE_FAILED, "symbolic links");
     assert_int_equal(files_in_folder(), 1);
@@ -128,7 +120,6 @@ static void a_circle_of_links_is_refused(void **state)
 
 static void what_is_no_file_is_left_alone(void **state)
 {
-    (void)state;
     assert_failure(ost_write_aside(ctx, folder, write_words, "x"), OST_FILE_FAILED, "not a regular file");
     assert_failure(ost_write_aside(ctx, "/dev/null", write_words, "x"), OST_FILE_FAILED, "not a regular file");
     int ends[2]; /* a link whose target can be opened, but has no name */
@@ -144,7 +135,6 @@ static void what_is_no_file_is_left_alone(void **state)
 
 static void the_new_file_is_as_open_as_others(void **state)
 {
-    (void)state;
     struct stat facts;
     const mode_t mask = umask(022);
     assert_success(ost_write_aside(ctx, in_folder("file"), write_words, "x"));

@@ -229,7 +229,6 @@ static int needs_ranks(int effect)
 
 static void what_is_off_is_not_called_and_what_is_on_is(void **state)
 {
-    (void)state;
     char file[280];
     write_torn_mesh(file);
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++) {
@@ -245,7 +244,6 @@ static void what_is_off_is_not_called_and_what_is_on_is(void **state)
 
 static void what_is_done_for_an_effect_is_booked_to_it(void **state)
 {
-    (void)state;
     void *memory = NULL;
     const OstLedgerEntry before = ost_ledger_entry(ctx, OST_EFFECT_LINEAR_SPACE);
     const long solves = ost_ledger_entry(ctx, OST_LEDGER_SOLVE).entries;

@@ -33,7 +33,6 @@ static void make_matrix(const double value[N], int mixed, double a[N * N])
 
 static void eigenvectors_give_the_matrix_again(void **state)
 {
-    (void)state;
     for (int group = 0; group < 2; group++)
         for (int mixed = 0; mixed < 5; mixed++) {
             double a[OST_SIMD_WIDTH][N * N];

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "element_support.h"
 
-#include "core/small.h"
-
 /* Linear kernels with an eigenstrain e0: stress = C (strain - e0), by tets of 4 nodes, of 10 with straight and curved
  * edges, and with C split. */
 
@@ -57,7 +55,6 @@ static void energy_of(const Case *test, OstSimd *energy)
 /* The energy is of second degree, so that central differences leave rounding alone. */
 static void the_force_is_the_derivative_of_the_energy(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd force[WIDTH];
@@ -80,7 +77,6 @@ static void the_force_is_the_derivative_of_the_energy(void **state)
 /* Twice the energy is the work of the forces less that of the stress on e0. */
 static void energy_is_work(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd force[WIDTH];
@@ -98,7 +94,6 @@ static void energy_is_work(void **state)
 
 static void free_swelling_has_no_stress(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd force[WIDTH], magnitude[WIDTH];
@@ -122,7 +117,6 @@ static void free_swelling_has_no_stress(void **state)
 /* Without displacement, too, rounding errors have a scale. */
 static void the_magnitude_counts_the_eigenstrain(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd force[WIDTH], magnitude[WIDTH];
@@ -139,7 +133,6 @@ static void the_magnitude_counts_the_eigenstrain(void **state)
 /* e0 at a point by the axes there: cylindrical ones, in tets of one region and of two. */
 static void it_follows_the_axes(void **state)
 {
-    (void)state;
     OstMaterial materials[2];
     const OstAxesSpec axes[2] = {
         {.kind = OST_AXES_CYLINDRICAL, .axis = {0, 0, 1}, .order = {OST_RADIAL, OST_TANGENTIAL, OST_AXIAL}},

@@ -63,7 +63,6 @@ static void assert_gathered(const OstMaterialField *field)
 
 static void lanes_hold_each_tets_elasticity(void **state)
 {
-    (void)state;
     int32_t region[TETS];
     OstMaterialField *field = make_field(0, region);
     assert_gathered(field);
@@ -72,7 +71,6 @@ static void lanes_hold_each_tets_elasticity(void **state)
 
 static void lanes_of_several_regions_hold_theirs(void **state)
 {
-    (void)state;
     int32_t region[TETS];
     OstMaterialField *field = make_field(1, region);
     assert_gathered(field);
@@ -81,7 +79,6 @@ static void lanes_of_several_regions_hold_theirs(void **state)
 
 static void a_uniform_region_is_gathered_once(void **state)
 {
-    (void)state;
     int32_t region[TETS];
     const OstLocal same[OST_SIMD_WIDTH] = {0, 1, 2, 3};
     const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
@@ -144,7 +141,6 @@ static void assert_at_points(const OstMaterialField *field, const OstLocal tets[
 
 static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
 {
-    (void)state;
     int32_t region[TETS];
     const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
     const OstLocal mixed_tets[OST_SIMD_WIDTH] = {2, 3, 4, 5};
@@ -174,7 +170,6 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
  * resists a change of shape by 2 G, and a pull beside that by the limit's bulk modulus. */
 static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **state)
 {
-    (void)state;
     static const int32_t region[OST_SIMD_WIDTH] = {0};
     static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     const OstLocal tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
@@ -231,7 +226,6 @@ static const OstLocal first_tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
 /* C of the family, which comes from its stretch tensor, against eq. 9. */
 static void the_familys_elasticity_is_the_rotated_one(void **state)
 {
-    (void)state;
     static const double nu[4] = {-0.6, 0.0, 0.3, 0.49};
     for (int n = 0; n < 4 * MODULI; n++) {
         OstMaterialField *field = family_field(moduli[n / 4], nu[n % 4], OST_SHEAR_GEOMETRIC, OST_AXES_CELLS);
@@ -273,7 +267,6 @@ static void stiffness_of_field(const OstMaterialField *field, int stretch_suffic
 
 static void stiffness_by_the_metric_is_that_by_the_elasticity(void **state)
 {
-    (void)state;
     for (int n = 0; n < 2 * MODULI; n++) {
         OstMaterialField *field =
             family_field(moduli[n / 2], 0.3, OST_SHEAR_GEOMETRIC, n % 2 ? OST_AXES_CELLS : OST_AXES_FIXED);
@@ -293,7 +286,6 @@ static void stiffness_by_the_metric_is_that_by_the_elasticity(void **state)
 
 static void other_shear_has_no_metric(void **state)
 {
-    (void)state;
     OstMaterialField *field = family_field(moduli[MODULI - 1], 0.3, OST_SHEAR_ARITHMETIC, OST_AXES_CELLS);
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
@@ -307,7 +299,6 @@ static void other_shear_has_no_metric(void **state)
 /* A about a line askew, made from the corners of tets, against A from the axes at their centroids. */
 static void the_metric_about_a_line_is_that_of_its_axes(void **state)
 {
-    (void)state;
     static const int32_t region[OST_SIMD_WIDTH] = {0};
     static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
@@ -356,7 +347,6 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
  * there are none, it is the tet's own. */
 static void elasticity_at_points_has_the_axes_there(void **state)
 {
-    (void)state;
     static const int32_t region[OST_SIMD_WIDTH] = {0};
     static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     static const double centroids[3 * OST_SIMD_WIDTH] = {1.0, 0.2,  -0.4, -3.0, 5.0,  0.1,

@@ -129,7 +129,6 @@ static void assert_derivatives(const Case *given)
 
 static void force_and_stiffness_are_derivatives_of_the_energy(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         make_case(&kinds[kind], moderate, 0.02, &test);
@@ -144,7 +143,6 @@ static void force_and_stiffness_are_derivatives_of_the_energy(void **state)
 /* Of the classical form too, moments only where the material is isotropic. */
 static void forces_balance(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd force[WIDTH];
@@ -197,7 +195,6 @@ static void rotate_case(double angle, Case *test)
 
 static void a_rigid_rotation_costs_nothing(void **state)
 {
-    (void)state;
     static const double angles[] = {1e-6, 0.3, 1.5707963267948966, 2.5, 3.141592653589793};
     for (int kind = 0; kind < KINDS; kind++)
         for (size_t n = 0; n < sizeof angles / sizeof angles[0]; n++)
@@ -242,7 +239,6 @@ static double resistance_to_turning(const Case *test, const OstSimd *from, int s
  * two shapes they are not, and do not resist being turned on. */
 static void the_linear_stress_knows_no_stretch_by_rotation(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd none[WIDTH] = {{0}};
@@ -266,7 +262,6 @@ static void the_linear_stress_knows_no_stretch_by_rotation(void **state)
 
 static void small_displacements_give_the_linear_force(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd u[WIDTH], linear[WIDTH], force[WIDTH];
@@ -340,7 +335,6 @@ static void hessian_of(const Case *test, int definite, double h[OST_SIMD_WIDTH][
  * that has none. */
 static void a_definite_stiffness_is_changed_only_where_it_must_be(void **state)
 {
-    (void)state;
     static const double pulled[4][3] = {{1.1, 1.2, 1.3}, {1.01, 1.02, 1.03}, {1.5, 1.4, 1.6}, {1.0, 1.0, 1.0}};
     const double(*stretches[4])[3] = {moderate, inverted, flat, pulled};
     int changed = 0, kept = 0;
@@ -373,7 +367,6 @@ static void a_definite_stiffness_is_changed_only_where_it_must_be(void **state)
 
 static void a_definite_tet_has_no_negative_eigenvalue(void **state)
 {
-    (void)state;
     Case test;
     double k[144];
     make_case(&kinds[0], inverted, 0.02, &test);
@@ -391,7 +384,6 @@ static void a_definite_tet_has_no_negative_eigenvalue(void **state)
 
 static void an_isotropic_linear_tet_has_the_classical_force(void **state)
 {
-    (void)state;
     for (int s = 0; s < 2; s++) {
         Case test;
         OstSimd consistent[WIDTH], classical[WIDTH], energy[2];
@@ -413,7 +405,6 @@ static void an_isotropic_linear_tet_has_the_classical_force(void **state)
 /* In an orthotropic material the classical forces have a moment: that is why the consistent form is the default. */
 static void classical_forces_of_an_orthotropic_tet_have_a_moment(void **state)
 {
-    (void)state;
     Case test;
     OstSimd force[WIDTH];
     make_case(&kinds[0], moderate, 0.0, &test);
@@ -433,7 +424,6 @@ static void classical_forces_of_an_orthotropic_tet_have_a_moment(void **state)
 /* R K R' with the R of a known rotation. */
 static void the_classical_stiffness_is_the_turned_linear_one(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         OstSimd blocks[9 * MOST_NODES * (MOST_NODES + 1) / 2];
@@ -462,7 +452,6 @@ static void the_classical_stiffness_is_the_turned_linear_one(void **state)
 /* A rotation of what is deformed turns the forces and leaves the energy. */
 static void energy_and_forces_are_objective(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
             Case test;
@@ -492,7 +481,6 @@ static void energy_and_forces_are_objective(void **state)
 /* Other orders of a linear tet's nodes give the same numbers in that order. */
 static void the_order_of_nodes_does_not_matter(void **state)
 {
-    (void)state;
     static const int order[4] = {2, 0, 3, 1}; /* odd: the tet's orientation changes */
     Case test, turned;
     OstSimd force[2][WIDTH];
@@ -513,7 +501,6 @@ static void the_order_of_nodes_does_not_matter(void **state)
 /* Where strain is uniform, the stiff mode's mean is its value. */
 static void the_mean_of_a_uniform_strain_is_that_strain(void **state)
 {
-    (void)state;
     Case test;
     OstSimd split[WIDTH], whole[WIDTH];
     make_case(&kinds[3], moderate, 0.0, &test);
@@ -530,7 +517,6 @@ static void the_mean_of_a_uniform_strain_is_that_strain(void **state)
 
 static void the_force_is_continuous_through_inversion(void **state)
 {
-    (void)state;
     static const double before[4][3] = {{1.1, 1.3, 1e-8}, {1.2, 0.9, 1e-9}, {1.6, 1.0, 1e-8}, {1.3, 0.8, 1e-9}};
     double after[4][3];
     memcpy(after, before, sizeof after);
@@ -555,7 +541,6 @@ static void the_force_is_continuous_through_inversion(void **state)
 /* Means and strains at points of a uniform deformation: U - I, and C times it. */
 static void means_are_of_the_strain_u_minus_i(void **state)
 {
-    (void)state;
     static const OstQuadraturePoint corner = {{0.1, 0.2, 0.3, 0.4}, 1.0};
     for (int kind = 0; kind < 3; kind++) {
         Case test;
@@ -588,7 +573,6 @@ static void means_are_of_the_strain_u_minus_i(void **state)
 
 static void derivatives_hold_with_an_eigenstrain(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Case test;
         make_case(&kinds[kind], moderate, 0.02, &test);
@@ -600,7 +584,6 @@ static void derivatives_hold_with_an_eigenstrain(void **state)
 /* Swollen freely by e0 and turned: x -> Q (I + e0) x, in both forms. */
 static void free_swelling_costs_nothing(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
             Case test;

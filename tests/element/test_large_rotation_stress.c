@@ -65,7 +65,6 @@ static void volume_now(const Case *test, OstSimd *volume)
  * tet, but for the moment of the classical forces. */
 static void mean_stress_is_that_of_the_forces(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++)
         for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
             Case test;
@@ -91,7 +90,6 @@ static void mean_stress_is_that_of_the_forces(void **state)
 /* Where the deformation is uniform, so is the stress: its mean is that at the nodes. */
 static void nodes_have_the_mean_of_a_uniform_stress(void **state)
 {
-    (void)state;
     for (int nodes = 4; nodes <= 10; nodes += 6)
         for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
             Case test;
@@ -109,7 +107,6 @@ static void nodes_have_the_mean_of_a_uniform_stress(void **state)
 /* The mean energy density is the energy, and half of stress times strain, of either form. */
 static void means_belong_to_the_energy(void **state)
 {
-    (void)state;
     for (int nodes = 4; nodes <= 10; nodes += 6)
         for (int f = OST_FORMULATION_CONSISTENT; f <= OST_FORMULATION_CLASSICAL; f++) {
             Case test;
@@ -126,7 +123,6 @@ static void means_belong_to_the_energy(void **state)
 /* Classical forces of tiny displacements keep their digits: those of twice the displacement are twice as large. */
 static void tiny_displacements_keep_their_digits(void **state)
 {
-    (void)state;
     for (int nodes = 4; nodes <= 10; nodes += 6) {
         Case test;
         OstSimd force[2][WIDTH];

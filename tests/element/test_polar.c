@@ -6,7 +6,6 @@
 /* F from its polar decomposition, whose parts have their properties; of F that is 0 or flat too. */
 static void the_polar_decomposition_gives_f_again(void **state)
 {
-    (void)state;
     static const double stretches[6][4][3] = {
         {{1.1, 1.2, 0.3}, {1.0, 1.0, 1.0}, {2.0, 2.0, 0.1}, {0.1, 1.0, 10.0}},
         {{1.1, 1.2, -0.3}, {1.0, 1.0, -0.9}, {2.0, 2.0, -0.1}, {5.0, 4.0, -3.0}},

@@ -55,7 +55,6 @@ static double error_in_steps(int nodes, const OstSimd *force, const OstSimd *rig
 /* A rigid motion has no force; that of a deformed tet turns with it. */
 static void rounding_errors_are_told_by_the_linear_magnitude(void **state)
 {
-    (void)state;
     static const double angles[] = {0.0, 1e-5, 0.02, 0.7, 1.6, 2.9}, distances[] = {0.0, 30.0, 1e4};
     static const double stretches[3][3] = {{1.0, 1.0, 1.0}, {1.01, 0.997, 0.995}, {1.5, 0.8, 0.7}};
     double c[36], worst = 0.0;

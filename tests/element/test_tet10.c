@@ -115,7 +115,6 @@ static void assert_stiffness(const Case *test, int varies, double tolerance)
 
 static void rules_are_exact_to_their_degrees(void **state)
 {
-    (void)state;
     static const int degrees[3] = {2, 3, 5};
     const OstQuadrature *rules[3] = {&ost_tet_degree2, &ost_tet_degree3, &ost_tet_degree5};
     for (int r = 0; r < 3; r++)
@@ -148,7 +147,6 @@ static void rules_are_exact_to_their_degrees(void **state)
 
 static void stiffness_of_a_straight_tet_is_the_plain_product(void **state)
 {
-    (void)state;
     Case test;
     make_case(0.0, &test);
     assert_stiffness(&test, 0, 1e-12);
@@ -156,7 +154,6 @@ static void stiffness_of_a_straight_tet_is_the_plain_product(void **state)
 
 static void stiffness_follows_c_from_point_to_point(void **state)
 {
-    (void)state;
     Case test;
     make_case(0.0, &test);
     make_varying(&test);
@@ -166,7 +163,6 @@ static void stiffness_follows_c_from_point_to_point(void **state)
 /* On curved tets the integrand is no polynomial; the rule is good where edges bend by a few hundredths. */
 static void stiffness_of_a_curved_tet_is_the_plain_product_to_the_rules_error(void **state)
 {
-    (void)state;
     Case test;
     make_case(0.03, &test);
     assert_stiffness(&test, 0, 2e-3);
@@ -179,7 +175,6 @@ static void stiffness_of_a_curved_tet_is_the_plain_product_to_the_rules_error(vo
 /* The paths of stiffness and force are not the same; straight tets beside a curved one take the longer. */
 static void a_straight_tet_does_not_feel_a_curved_one_beside_it(void **state)
 {
-    (void)state;
     Case test;
     OstSimd alone[9 * PAIRS];
     OstSimd beside[9 * PAIRS];
@@ -197,7 +192,6 @@ static void a_straight_tet_does_not_feel_a_curved_one_beside_it(void **state)
 
 static void rigid_motions_meet_no_stiffness(void **state)
 {
-    (void)state;
     for (int curved = 0; curved < 2; curved++) {
         Case test;
         OstSimd force[WIDTH];
@@ -278,7 +272,6 @@ static void plain_answer(const double x[WIDTH], const double c[36], double force
 
 static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
 {
-    (void)state;
     Case test;
     OstSimd force[WIDTH];
     OstSimd nodal[60];
@@ -311,7 +304,6 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
 /* |B'| |C| |B| |u| in the rule's points, by plain loops. */
 static void magnitude_sums_absolute_values(void **state)
 {
-    (void)state;
     Case test;
     OstSimd magnitude[WIDTH];
     OstSimd force[WIDTH];
@@ -342,7 +334,6 @@ static void magnitude_sums_absolute_values(void **state)
 
 static void scalar_measures_follow_the_shape_functions(void **state)
 {
-    (void)state;
     for (unsigned seed = 1u; seed <= 2u; seed++) { /* one of each orientation */
         double x[WIDTH], u[WIDTH], volumes[NODES], gradient[9], pairs[PAIRS];
         double volume = 0.0, node_volumes[NODES] = {0}, mean[9] = {0}, products[PAIRS] = {0};
@@ -410,7 +401,6 @@ static double area_of_octant(int cuts)
 
 static void areas_of_curved_faces_converge_with_order_four(void **state)
 {
-    (void)state;
     const double exact = 1.57079632679489662;
     const double error[3] = {fabs(area_of_octant(4) - exact), fabs(area_of_octant(8) - exact),
                              fabs(area_of_octant(16) - exact)};
@@ -421,7 +411,6 @@ static void areas_of_curved_faces_converge_with_order_four(void **state)
 /* 0, 0, 0 at the vertices and a third at each middle. */
 static void straight_faces_share_area_between_their_middles(void **state)
 {
-    (void)state;
     const double x[18] = {1, 1, 1, 1, 3, 1, 1, 1, 4, 1, 2, 1, 1, 2, 2.5, 1, 1, 2.5}; /* area 3, normal +x */
     double areas[6], vectors[18];
     ost_tet10.node_areas(x, areas, vectors);

@@ -90,7 +90,6 @@ static double largest(double k[12][12])
 
 static void pairs_are_numbered_row_by_row(void **state)
 {
-    (void)state;
     int n = 0;
     for (int a = 0; a < 10; a++)
         for (int b = a; b < 10; b++)
@@ -101,7 +100,6 @@ static void pairs_are_numbered_row_by_row(void **state)
 
 static void stiffness_is_the_full_product_b_c_b(void **state)
 {
-    (void)state;
     Case test;
     OstSimd blocks[9 * PAIRS];
     make_case(&test);
@@ -120,7 +118,6 @@ static void stiffness_is_the_full_product_b_c_b(void **state)
 
 static void force_is_stiffness_times_displacement(void **state)
 {
-    (void)state;
     Case test;
     OstSimd u[12];
     OstSimd force[12];
@@ -145,7 +142,6 @@ static void force_is_stiffness_times_displacement(void **state)
 /* |B'| |C| |B| |u|, by the plain matrices. */
 static void magnitude_sums_absolute_values(void **state)
 {
-    (void)state;
     Case test;
     OstSimd u[12];
     OstSimd magnitude[12];
@@ -172,7 +168,6 @@ static void magnitude_sums_absolute_values(void **state)
 
 static void rigid_motions_meet_no_stiffness(void **state)
 {
-    (void)state;
     Case test;
     OstSimd blocks[9 * PAIRS];
     make_case(&test);
@@ -200,7 +195,6 @@ static void rigid_motions_meet_no_stiffness(void **state)
 /* u = A x gives the strains of A exactly, and stress C strain with energy ½ strain·C·strain. */
 static void a_linear_field_has_its_strain_and_energy(void **state)
 {
-    (void)state;
     static const double a[9] = {0.1, 0.02, -0.03, 0.05, -0.2, 0.04, 0.07, 0.01, 0.3};
     const double expected[6] = {a[0], a[4], a[8], a[1] + a[3], a[5] + a[7], a[6] + a[2]};
     Case test;
@@ -233,7 +227,6 @@ static void a_linear_field_has_its_strain_and_energy(void **state)
 
 static void gradients_and_laplacian_follow_the_shape_functions(void **state)
 {
-    (void)state;
     double x[12];
     double u[12];
     double g[12];
@@ -261,7 +254,6 @@ static void gradients_and_laplacian_follow_the_shape_functions(void **state)
 
 static void volumes_carry_the_orientation(void **state)
 {
-    (void)state;
     const double x[12] = {1, 2, 3, 3, 2, 3, 1, 5, 3, 1, 2, 7}; /* legs 2, 3, 4 from a corner: 4 */
     double mirrored[12];
     double gradients[12];
@@ -282,7 +274,6 @@ static void volumes_carry_the_orientation(void **state)
 
 static void faces_share_area_and_direction(void **state)
 {
-    (void)state;
     const double x[9] = {1, 1, 1, 1, 3, 1, 1, 1, 4}; /* legs 2 and 3: area 3, normal +x */
     double areas[3];
     double vectors[9];
@@ -297,7 +288,6 @@ static void faces_share_area_and_direction(void **state)
 
 static void tets_are_told_apart_by_their_nodes(void **state)
 {
-    (void)state;
     assert_ptr_equal(ost_element_of(4), &ost_tet4);
     assert_ptr_equal(ost_element_of(10), &ost_tet10);
     assert_null(ost_element_of(8));
@@ -305,7 +295,6 @@ static void tets_are_told_apart_by_their_nodes(void **state)
 
 static void lanes_turn_into_tets(void **state)
 {
-    (void)state;
     OstSimd in[OST_SIMD_WIDTH];
     OstSimd out[OST_SIMD_WIDTH];
     for (int i = 0; i < OST_SIMD_WIDTH; i++)

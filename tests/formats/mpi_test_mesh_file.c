@@ -41,7 +41,6 @@ static void assert_shares(OstLocal node_count, OstLocal tet_count)
 
 static void all_ranks_know_the_names_of_a_gmsh_mesh(void **state)
 {
-    (void)state;
     for (int f = MSH_22_TEXT; f < MSH_FLAVOURS; f += 3) {
         assert_success(ost_mesh_file_read(ctx, msh_write(&model, msh_flavours[f], "mesh.msh"), &chunk, &materials));
         assert_shares(5, 2);
@@ -62,7 +61,6 @@ static void all_ranks_know_the_names_of_a_gmsh_mesh(void **state)
 
 static void all_ranks_know_the_materials_of_a_veg_mesh(void **state)
 {
-    (void)state;
     assert_success(ost_mesh_file_read(ctx, write_text("mesh.veg", VEG), &chunk, &materials));
     assert_shares(5, 2);
     assert_int_equal(chunk->regions.count, 2);
@@ -79,7 +77,6 @@ static void all_ranks_know_the_materials_of_a_veg_mesh(void **state)
 
 static void all_ranks_fail_together(void **state)
 {
-    (void)state;
     assert_failure(ost_mesh_file_read(ctx, write_text("bad.veg", "*VERTICES\n2 3 0 0\n1 0 0\n"), &chunk, &materials),
                    OST_INVALID_INPUT, "bad.veg:3: the line ends where z is expected");
     assert_null(chunk);
@@ -100,7 +97,6 @@ static OstStatus read_list(const char *text)
 
 static void vertex_lists_reach_all_ranks(void **state)
 {
-    (void)state;
     assert_success(read_list("# held\n1,3,6,\r\n8 4 # by hand\n\n10 : 12, 20:20\n3\n5:6\n"));
     const OstLabelRange expected[] = {{1, 1}, {3, 6}, {8, 8}, {10, 12}, {20, 20}};
     assert_int_equal(range_count, 5);
@@ -114,7 +110,6 @@ static void vertex_lists_reach_all_ranks(void **state)
 
 static void wrong_vertex_lists_are_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *list, *text;
     } wrong[] = {{"1, x", "list.bou:1: a vertex number is 'x', expected a whole number"},
@@ -138,7 +133,6 @@ enum { LINES = 40000 };
 /* More than a rank can ask for at once, in an order of its own. */
 static void tables_reach_the_ranks_that_ask(void **state)
 {
-    (void)state;
     char *text = malloc(LINES * 32 + 32);
     OstGlobal *line = malloc(LINES * sizeof *line);
     double *values = malloc(LINES * 2 * sizeof *values);
@@ -161,7 +155,6 @@ static void tables_reach_the_ranks_that_ask(void **state)
 
 static void wrong_tables_are_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *table, *text;
     } wrong[] = {{"1 2 3\n4 5 6\n", "table.txt:2: the file ends after 2 lines of 3 numbers, expected 3"},

@@ -80,9 +80,7 @@ static void make_fields(const OstMesh *mesh, Fields *fields)
 
 static void free_fields(Fields *fields)
 {
-    OST_FREE(fields->displacement);
-    OST_FREE(fields->stress);
-    OST_FREE(fields->rank);
+    OST_FREE(fields->displacement, fields->stress, fields->rank);
 }
 
 /* Writes the tube with a context's ranks. */
@@ -111,7 +109,6 @@ static void expect_tube(OstContext *context, OstMeshChunk **read)
 
 static void a_mesh_comes_back_as_it_was(void **state)
 {
-    (void)state;
     name_file("round");
     write_tube(ctx, path);
     OstMeshChunk *read = NULL;
@@ -122,7 +119,6 @@ static void a_mesh_comes_back_as_it_was(void **state)
 
 static void what_was_read_can_be_distributed_and_written_again(void **state)
 {
-    (void)state;
     name_file("again");
     write_tube(ctx, path);
     OstMeshChunk *read = NULL;
@@ -147,7 +143,6 @@ static OstContext *create_lone_context(void)
 /* Open MPI holds paths in 256 bytes, with letters of its own. */
 static void long_paths_are_written(void **state)
 {
-    (void)state;
     OstHdf5 file;
     char letters[200] = "";
     memset(letters, 'n', 190);
@@ -164,7 +159,6 @@ static void long_paths_are_written(void **state)
 
 static void one_rank_reads_the_pieces_of_all(void **state)
 {
-    (void)state;
     name_file("pieces");
     write_tube(ctx, path);
     OstContext *lone = create_lone_context();
@@ -177,7 +171,6 @@ static void one_rank_reads_the_pieces_of_all(void **state)
 
 static void all_ranks_share_the_piece_of_one(void **state)
 {
-    (void)state;
     name_file("piece");
     if (ost_rank(ctx) == 0) {
         OstContext *lone = create_lone_context();
@@ -193,7 +186,6 @@ static void all_ranks_share_the_piece_of_one(void **state)
 
 static void without_labels_equal_places_are_one_node(void **state)
 {
-    (void)state;
     name_file("places");
     write_tube(ctx, path);
     if (ost_rank(ctx) == 0) {
@@ -251,7 +243,6 @@ static OstGlobal tear_a_vertex_apart(void)
 
 static void a_label_at_two_places_is_refused(void **state)
 {
-    (void)state;
     name_file("torn");
     write_tube(ctx, path);
     OstGlobal torn = 0;
@@ -270,7 +261,6 @@ static void a_label_at_two_places_is_refused(void **state)
 
 static void an_infinite_value_leaves_the_old_file_alone(void **state)
 {
-    (void)state;
     name_file("finite");
     write_tube(ctx, path);
     OstMesh *mesh = distribute_tube(ctx);
@@ -294,7 +284,6 @@ static void an_infinite_value_leaves_the_old_file_alone(void **state)
 
 static void a_folder_that_is_not_there_is_named(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_tube(ctx);
     assert_failure(ost_vtkhdf_write(ctx, "no-such-folder/tube.vtkhdf", mesh, 0, NULL, NULL), OST_FILE_FAILED,
                    "cannot write 'no-such-folder/tube.vtkhdf': No such file or directory");
@@ -303,7 +292,6 @@ static void a_folder_that_is_not_there_is_named(void **state)
 
 static void a_folder_is_not_replaced(void **state)
 {
-    (void)state;
     name_file("folder");
     if (ost_rank(ctx) == 0)
         mkdir(path, 0777);
@@ -315,7 +303,6 @@ static void a_folder_is_not_replaced(void **state)
 
 static void rows_are_written_in_blocks_where_mpi_cannot_count_them(void **state)
 {
-    (void)state;
     enum { COUNT = 23 };
     name_file("blocks");
     OstHdf5 h5;
@@ -341,7 +328,6 @@ static void rows_are_written_in_blocks_where_mpi_cannot_count_them(void **state)
 
 static void names_that_the_file_uses_itself_are_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_tube(ctx);
     const OstOutputArray vertex = {"vertex", OST_ON_NODES, OST_VALUES_DOUBLE, 3, mesh->coordinates};
     const OstOutputArray slash = {"a/b", OST_ON_NODES, OST_VALUES_DOUBLE, 3, mesh->coordinates};
@@ -356,7 +342,6 @@ static void names_that_the_file_uses_itself_are_refused(void **state)
 /* For test_vtkhdf_reader.py, which asks for the file to be left somewhere. */
 static void a_file_can_be_left_for_vtk(void **state)
 {
-    (void)state;
     const char *target = getenv("ORTHOSTAT_WRITE_TO");
     name_file("finished");
     write_tube(ctx, target ? target : path);

@@ -83,7 +83,6 @@ static void check_clamp(const OstMeshChunk *chunk, int f)
 
 static void stored_files_hold_two_cubes(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];
@@ -100,7 +99,6 @@ static void stored_files_hold_two_cubes(void **state)
 /* Curved faces have their mid-edge nodes where the tets behind have them. */
 static void quadratic_meshes_pass_the_checks_of_the_body(void **state)
 {
-    (void)state;
     for (int f = 0; f < FILES; f++) {
         char path[512];
         OstMeshChunk *chunk = NULL;
@@ -124,7 +122,6 @@ static void fields_are_read_tet_by_tet(void **state)
     static const char *const with_fields[] = {"meshio-linear-ascii.vtk", "meshio-linear-binary.vtk",
                                               "meshio-linear-ascii.vtu", "meshio-linear-zlib.vtu",
                                               "vtk-appended-raw.vtu",    "vtk-appended-base64-zlib.vtu"};
-    (void)state;
     for (size_t f = 0; f < sizeof with_fields / sizeof *with_fields; f++) {
         char path[512];
         OstMeshChunk *chunk = NULL;
@@ -171,7 +168,6 @@ static void fields_of_elements_are_read_for_their_tets(void **state)
 {
     char path[512];
     OstMeshChunk *chunk = NULL;
-    (void)state;
     path_of("solids-meshio.vtu", path);
     assert_success(ost_chunk_read(ctx, path, &chunk));
     assert_success(ost_mesh_file_read_field(ctx, path, "modulus", OST_FIELD_OF_NUMBERS, chunk));
@@ -243,7 +239,6 @@ static void mistakes_are_named_with_file_and_line(void **state)
         {"a.xdmf", "", "a.xdmf').write('"},
         {"a.qqq", "", "the ending '.qqq' is not that of a mesh file"},
     };
-    (void)state;
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
         expect_refusal(wrong[w].name, wrong[w].content, strlen(wrong[w].content), wrong[w].words);
 }

@@ -45,7 +45,6 @@ static void check_boundary(const OstMeshChunk *chunk, const char *name, int dime
 
 static void files_hold_two_cubes(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];
@@ -79,7 +78,6 @@ static void assert_fibre(const double *fibre, double angle)
 /* Variables of elements and of nodes, vectors by their components, or as meshio writes them; of the last time step. */
 static void fields_are_read_tet_by_tet(void **state)
 {
-    (void)state;
     for (int f = 0; f < FILES; f++) {
         char path[512];
         OstMeshChunk *chunk = NULL;
@@ -120,7 +118,6 @@ static void other_solids_are_read(void **state)
         const char *name;
         int nodes;
     } solids[] = {{"solids-linear.exo", 17}, {"solids-serendipity.exo", 71}};
-    (void)state;
     for (int f = 0; f < 2; f++) {
         char path[512];
         OstMesh *mesh = NULL;
@@ -190,7 +187,6 @@ static void a_file_that_was_cut_off_is_refused(void **state)
     static const char *const names[] = {"exodus-linear-classic.exo", "exodus-linear-offset.gen",
                                         "exodus-quadratic-64bit.ex2", "meshio-linear.e"};
     static unsigned char bytes[MOST_BYTES];
-    (void)state;
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         const size_t size = load(names[n], bytes);
         expect_refusal(bytes, size - 4, n < 3 ? "incomplete or damaged" : "expected in Exodus II, could not be read");
@@ -224,7 +220,6 @@ static void mistakes_are_named(void **state)
         {"num_nodes", 6, "\30", 1, "expected in Exodus II, could not be read"},
     };
     static unsigned char bytes[MOST_BYTES];
-    (void)state;
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         const size_t size = load("exodus-linear-classic.exo", bytes);
         unsigned char *place = behind(bytes, size, wrong[w].text);
@@ -239,7 +234,6 @@ static void numbers_of_nodes_are_checked(void **state)
     static unsigned char bytes[MOST_BYTES];
     static const unsigned char map[] = {0, 0, 0, 10, 0, 0, 0, 20, 0, 0, 0, 30};
     OstMeshChunk *chunk = NULL;
-    (void)state;
     size_t size = load("exodus-linear-classic.exo", bytes);
     unsigned char *place = memmem(bytes, size, map, sizeof map);
     assert_non_null(place);

@@ -116,7 +116,6 @@ static void check_model4(int version)
 
 static void every_flavour_gives_the_same_mesh(void **state)
 {
-    (void)state;
     for (int f = 0; f < MSH_FLAVOURS; f++) {
         const char *path = msh_write(&model4, msh_flavours[f], "flavour.msh");
         const OstStatus status = read_mesh(path);
@@ -129,7 +128,6 @@ static void every_flavour_gives_the_same_mesh(void **state)
 
 static void without_physical_volumes_there_is_one_region(void **state)
 {
-    (void)state;
     const MshElement tet = {3, 4, 3, 0, 1, {10, 20, 31, 40}};
     const MshModel model = {NULL, 4, 1, nodes4, &tet};
     for (int f = 0; f < MSH_FLAVOURS; f++) {
@@ -146,7 +144,6 @@ static void without_physical_volumes_there_is_one_region(void **state)
  */
 static void second_order_tets_come_in_our_order(void **state)
 {
-    (void)state;
     static const double corner[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     static const int gmsh_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}};
     static const int our_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
@@ -183,7 +180,6 @@ static void second_order_tets_come_in_our_order(void **state)
 
 static void tets_come_in_the_order_of_their_tags(void **state)
 {
-    (void)state;
     const MshElement elements[] = {{8, 4, 3, 1, 1, {10, 20, 31, 40}}, {5, 4, 3, 2, 2, {20, 31, 40, 55}}};
     const MshModel model = {NULL, 5, 2, nodes4, elements};
     for (int f = 0; f < MSH_FLAVOURS; f++) {
@@ -201,7 +197,6 @@ static void tets_come_in_the_order_of_their_tags(void **state)
 /* Other programs write 2.2 with one entity for all elements; the physical tag of each element counts. */
 static void elements_of_one_entity_stay_in_their_groups(void **state)
 {
-    (void)state;
     const MshElement elements[] = {{1, 2, 2, 5, 1, {10, 31, 20}},
                                    {2, 2, 2, 6, 1, {10, 20, 40}},
                                    {3, 2, 2, 6, 1, {10, 40, 31}},
@@ -219,7 +214,6 @@ static void elements_of_one_entity_stay_in_their_groups(void **state)
 
 static void groups_of_one_name_are_one(void **state)
 {
-    (void)state;
     MshModel model = model4;
     model.names = "4\n2 5 \"skin\"\n2 6 \"skin\"\n3 1 \"bone\"\n3 2 \"bone\"\n";
     for (int f = 1; f < MSH_FLAVOURS; f++) {
@@ -271,7 +265,6 @@ static void hexahedra_and_pyramids_become_tets(void **state)
                                           {12, 5, 3, 1, 5, {10, 20, 31, 40, 5, 56, 57, 58}},
                                           {13, 7, 3, 2, 6, {5, 56, 57, 58, 3}}};
     const MshModel model = {NULL, 9, 3, nodes, elements};
-    (void)state;
     for (int f = 0; f < MSH_FLAVOURS; f++) {
         double volume[2] = {0.0, 0.0};
         assert_success(read_and_listen(msh_write(&model, msh_flavours[f], "solids.msh")));
@@ -292,7 +285,6 @@ static void hexahedra_and_pyramids_become_tets(void **state)
 
 static void a_mesh_without_tets_is_refused(void **state)
 {
-    (void)state;
     const MshElement faces[] = {{1, 2, 2, 5, 1, {10, 20, 31}}, {2, 2, 2, 5, 1, {40, 55, 56}}};
     const MshModel model = {NULL, 6, 2, nodes4, faces};
     for (int f = 0; f < MSH_FLAVOURS; f++) {
@@ -303,7 +295,6 @@ static void a_mesh_without_tets_is_refused(void **state)
 
 static void quadrilaterals_in_a_boundary_are_refused(void **state)
 {
-    (void)state;
     const MshElement quad = {1, 3, 2, 5, 3, {10, 20, 55, 31}};
     refuse((MshElement[]){quad, tet_a, tet_b, tet_c}, 4,
            "boundary 'surface-5' holds elements of Gmsh's type 'Quadrilateral 4', expected 'Triangle 3'");
@@ -312,7 +303,6 @@ static void quadrilaterals_in_a_boundary_are_refused(void **state)
 /* Version 2 has such a tet once for each volume, version 4 says it of the entity. Volumes of one tet, and of all. */
 static void a_tet_in_several_volumes_is_in_the_smallest(void **state)
 {
-    (void)state;
     MshElement again = tet_a, all = tet_a;
     again.tag = 20;
     again.physical = 2;
@@ -350,7 +340,6 @@ static void a_tet_in_several_volumes_is_in_the_smallest(void **state)
 
 static void repeated_tags_of_tets_are_replaced(void **state)
 {
-    (void)state;
     MshElement again = tet_b;
     again.tag = tet_a.tag;
     const MshModel twice = {NULL, 6, 3, nodes4, (MshElement[]){tet_a, again, tet_c}};
@@ -368,7 +357,6 @@ static void repeated_tags_of_tets_are_replaced(void **state)
 
 static void repeated_tags_of_nodes_are_refused(void **state)
 {
-    (void)state;
     MshNode nodes[6];
     memcpy(nodes, nodes4, sizeof nodes);
     nodes[5].tag = 55;
@@ -381,7 +369,6 @@ static void repeated_tags_of_nodes_are_refused(void **state)
 /* Gmsh writes the centres of arcs, and faces that a volume does not have. */
 static void nodes_of_no_tet_are_left_out(void **state)
 {
-    (void)state;
     const MshElement elements[] = {{1, 15, 0, 3, 1, {56}},
                                    {2, 2, 2, 5, 3, {10, 31, 20}},
                                    {3, 2, 2, 5, 3, {10, 31, 56}},
@@ -422,7 +409,6 @@ static double first_volume(void)
 
 static void tets_the_other_way_round_are_turned(void **state)
 {
-    (void)state;
     MshElement elements[] = {{7, 4, 3, 1, 5, {20, 10, 31, 40}}, {9, 4, 3, 1, 5, {31, 20, 40, 55}}};
     const MshModel model = {NULL, 5, 2, nodes4, elements};
     assert_success(read_and_listen(msh_write(&model, msh_flavours[MSH_41_TEXT], "turned.msh")));
@@ -441,7 +427,6 @@ static void tets_the_other_way_round_are_turned(void **state)
 /* A turned tet of ten nodes has each mid-edge node on its edge. */
 static void turned_tets_keep_their_middles(void **state)
 {
-    (void)state;
     static const int corner[10][2] = {{0, 0}, {2, 2}, {1, 1}, {3, 3}, {0, 2}, {2, 1}, {0, 1}, {0, 3}, {1, 3}, {2, 3}};
     static const double x[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
     static const int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
@@ -467,7 +452,6 @@ static void turned_tets_keep_their_middles(void **state)
 /* What follows the end mark of the elements may be cut; everything else is missed. */
 static void every_cut_file_is_refused(void **state)
 {
-    (void)state;
     static MshFile file;
     for (int f = 0; f < MSH_FLAVOURS; f++) {
         msh_make(&model4, msh_flavours[f], &file);
@@ -494,7 +478,6 @@ static void put_byte(const char *path, size_t place, char byte)
 /* One byte is changed at a time. Some changes give another mesh; none may crash, hang or leave anything behind. */
 static void damaged_files_do_no_harm(void **state)
 {
-    (void)state;
     static MshFile file;
     unsigned random = 12345;
     int refused = 0;
@@ -539,7 +522,6 @@ static void refuse_text(const char *contents, const char *text)
 
 static void what_is_no_mesh_is_refused(void **state)
 {
-    (void)state;
     refuse_text("Point(1) = {0, 0, 0};\n", "text.msh:1: 'Point(1) = {0, 0, 0};' found, expected $MeshFormat: not a");
     refuse_text("$Nodes\n1\n", "text.msh:1: '$Nodes' found, expected $MeshFormat: not a Gmsh mesh");
     refuse_text("", "is empty");
@@ -548,7 +530,6 @@ static void what_is_no_mesh_is_refused(void **state)
 
 static void wrong_files_are_refused_where_they_are_wrong(void **state)
 {
-    (void)state;
     refuse_text("$MeshFormat\n5.0 0 8\n$EndMeshFormat\n",
                 "text.msh:2: version 5 of the format found, expected 1 to 4.1; convert the file with gmsh -save "
                 "FILE.msh -format msh41 -o NEW.msh");
@@ -597,7 +578,6 @@ static void wrong_files_are_refused_where_they_are_wrong(void **state)
  * look. */
 static void other_sections_and_words_are_skipped(void **state)
 {
-    (void)state;
     static const char *const files[] = {
         NODES22 "\n$Comments\nmade by hand\n$EndComments\n$Elements\r\n1\n1 4 2 1 1 1 2 3 4\n$EndElements",
         "$Comments\nat the top\n$EndComments\n" HEAD22 OTHERS NODES OTHERS TET22 OTHERS,
@@ -616,7 +596,6 @@ static void other_sections_and_words_are_skipped(void **state)
 /* In binary files a section may hold anything. */
 static void other_binary_sections_are_skipped(void **state)
 {
-    (void)state;
     static MshFile file;
     static const char data[] = "$NodeData\n1\n\"$Nodes\"\n1\n0\n3\n0\n1\n1\n\0\0$Elements\n\1\xff$EndNodeData\n";
     for (int f = 0; f < MSH_FLAVOURS; f++) {
@@ -636,7 +615,6 @@ static void other_binary_sections_are_skipped(void **state)
 /* PyMesh and TetWild write the end of a section right behind its bytes. */
 static void ends_may_follow_bytes_at_once(void **state)
 {
-    (void)state;
     static MshFile file;
     static const char *const ends[] = {"\n$EndMeshFormat", "\n$EndNodes", "\n$EndElements"};
     for (int f = 0; f < MSH_FLAVOURS; f++) {
@@ -656,7 +634,6 @@ static void ends_may_follow_bytes_at_once(void **state)
 
 static void tags_may_be_zero_sparse_and_many(void **state)
 {
-    (void)state;
     assert_success(read_mesh(
         write_text("tags.msh", HEAD22
                    "$PhysicalNames\n2\n3 4 bone\n2 -3 \"skin\" outside\n$EndPhysicalNames\n"
@@ -673,7 +650,6 @@ static void tags_may_be_zero_sparse_and_many(void **state)
 /* Nodes with their parameters on curves, surfaces and in volumes. */
 static void parametric_nodes_are_read(void **state)
 {
-    (void)state;
     static const char *const files[] = {
         HEAD22 "$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 1 0.5\n3 0 1 0 2 1 0.5 0.5\n4 0 0 1 3 1\n"
                "$EndParametricNodes\n" TET22,
@@ -694,7 +670,6 @@ static void parametric_nodes_are_read(void **state)
  * face is given the group of the volume, which is no surface's. */
 static void partitioned_files_are_one_body(void **state)
 {
-    (void)state;
     assert_success(read_and_listen(write_text(
         "parts.msh",
         HEAD41 "$PhysicalNames\n2\n2 7 \"skin\"\n3 7 \"bone\"\n$EndPhysicalNames\n"
@@ -719,7 +694,6 @@ static void partitioned_files_are_one_body(void **state)
 /* A face in two groups is in both boundaries. */
 static void faces_may_be_in_several_groups(void **state)
 {
-    (void)state;
     assert_success(read_mesh(write_text(
         "groups.msh", HEAD41 "$Entities\n0 0 1 1\n8 0 0 0 1 1 1 2 5 -6 0\n1 0 0 0 1 1 1 0 0\n$EndEntities\n" NODES41
                              "$Elements\n2 2 1 2\n2 8 2 1\n1 1 3 2\n3 1 4 1\n2 1 2 3 4\n$EndElements\n")));
@@ -740,7 +714,6 @@ static const char *write_packed(const char *name, const void *bytes, size_t leng
 
 static void packed_files_are_read(void **state)
 {
-    (void)state;
     static MshFile file;
     for (int f = 0; f < MSH_FLAVOURS; f++) {
         msh_make(&model4, msh_flavours[f], &file);
@@ -754,7 +727,6 @@ static void packed_files_are_read(void **state)
 
 static void damaged_packed_files_are_refused(void **state)
 {
-    (void)state;
     static MshFile file;
     static char packed[MSH_SIZE], zeros[1 << 22];
     msh_make(&model4, msh_flavours[MSH_41_BINARY], &file);
@@ -772,7 +744,6 @@ static void damaged_packed_files_are_refused(void **state)
 
 static void missing_files_and_unknown_endings_are_named(void **state)
 {
-    (void)state;
     assert_failure(read_mesh(scratch("missing.msh")), OST_FILE_FAILED, "missing.msh: cannot be read: No such file");
     assert_failure(read_mesh(scratch("missing.stl")), OST_INVALID_INPUT, "files of STL are not read");
     assert_failure(read_mesh("folder.msh/mesh"), OST_INVALID_INPUT, "the ending ''");

@@ -3,7 +3,6 @@
 #include "two_cubes.h"
 
 #include "mesh/mesh_data.h"
-#include "orthostat/mesh_file.h"
 
 /* One mesh of two cubes, [0, 2] × [0, 1]², as Gmsh 4.8, meshio 5.0 and FreeFEM 4.11 write it, and by hand as ElmerGrid
  * does (groups of tag 0 alone, and the material as elementary tag); the counts are those of libgmsh. In two of the
@@ -42,7 +41,6 @@ static void check_boundary(const OstMeshChunk *chunk, int named)
 
 static void stored_files_are_read_as_gmsh_reads_them(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (int f = 0; f < FILES; f++) {
         char path[512];

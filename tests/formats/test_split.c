@@ -4,7 +4,6 @@
 #include "core/index_map.h"
 #include "core/small.h"
 #include "formats/cells/shapes.h"
-#include "formats/cells/split.h"
 #include "formats/serial/formats.h"
 #include "mesh/mesh_data.h"
 
@@ -220,7 +219,6 @@ static const double outer_faces = 2.0 * 6.0 * SIDE * SIDE;
 
 static void cells_of_all_kinds_become_tets_that_fit(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     for (seed = 1; seed <= 8; seed++)
         for (int order = LINEAR; order <= FULL; order++) {
@@ -239,7 +237,6 @@ static void cells_of_all_kinds_become_tets_that_fit(void **state)
 
 static void twisted_faces_fit_too(void **state)
 {
-    (void)state;
     for (seed = 1; seed <= 8; seed++) {
         OstMeshChunk *chunk = NULL;
         build(LINEAR, shake, &chunk);
@@ -251,7 +248,6 @@ static void twisted_faces_fit_too(void **state)
 /* Serendipity and full cells have a quadratic map, and so have their tets. */
 static void curved_cells_keep_their_volume(void **state)
 {
-    (void)state;
     for (seed = 1; seed <= 4; seed++)
         for (int order = SERENDIPITY; order <= FULL; order++) {
             OstMeshChunk *chunk = NULL;
@@ -271,7 +267,6 @@ static void straight_cells_stay_straight(void **state)
     OstMeshChunk *chunk = NULL;
     OstGlobal nodes[20];
     double x[20][3];
-    (void)state;
     memcpy(x, place, sizeof place);
     for (int e = 0; e < 12; e++)
         for (int d = 0; d < 3; d++)
@@ -312,7 +307,6 @@ static void collapsed_hexahedra_lose_their_flat_tets(void **state)
     static const double place[16][3] = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},  {1, 0, 1},
                                         {1, 1, 1},  {0, 1, 1},  {0, -1, 0}, {1, -1, 0}, {0, -1, 1}, {1, -1, 1},
                                         {0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}};
-    (void)state;
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
         for (seed = 1; seed <= 40; seed++) {
             OstCells cells;
@@ -390,7 +384,6 @@ static void surfaces_of_abaqus_are_faces_of_its_cells(void **state)
         "*SURFACE,NAME=B1\nWEDGE,S1\n*SURFACE,NAME=B2\n6,S2\n*SURFACE,NAME=B3\n6,S3\n*SURFACE,NAME=B4\n6,S4\n"
         "*NSET,NSET=PINS\n1,9\n";
     OstMeshChunk *chunk = NULL;
-    (void)state;
     assert_success(read_text("a.inp", text, &chunk));
     assert_int_equal(chunk->tet_count, 9);
     assert_int_equal(chunk->regions.count, 2);
@@ -421,7 +414,6 @@ static void full_hexahedra_of_abaqus_are_read(void **state)
         "19,2,2,1\n20,0,2,1\n21,1,1,1\n22,1,1,0\n23,1,1,2\n24,1,0,1\n25,2,1,1\n26,1,2,1\n27,0,1,1\n"
         "*ELEMENT,TYPE=C3D27\n1,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,\n16,17,18,19,20,21,22,23,24,25,26,27\n";
     OstMeshChunk *chunk = NULL;
-    (void)state;
     assert_success(read_text("full.inp", text, &chunk));
     assert_int_equal(chunk->node_count, 27);
     assert_close(whole_volume(chunk, NULL), 8.0, 1e-14);
@@ -436,7 +428,6 @@ static void voxels_of_vtk_go_row_by_row(void **state)
                                         "CELLS 2 14\n8 0 1 2 3 4 5 6 7\n4 0 1 2 3\nCELL_TYPES 2\n11\n8\n"
                                         "CELL_DATA 2\nSCALARS region int 1\nLOOKUP_TABLE default\n4\n9\n";
     OstMeshChunk *chunk = NULL;
-    (void)state;
     assert_success(read_text("voxel.vtk", text, &chunk));
     assert_close(whole_volume(chunk, "volume-4"), 1.0, 1e-15);
     expect_plane(chunk, "surface-9", 2, 2, 0.0);
@@ -448,7 +439,6 @@ static void lagrange_hexahedra_are_read_in_both_orders(void **state)
 {
     static const char edge[] = "1 0 0 2 1 0 1 2 0 0 1 0 1 0 2 2 1 2 1 2 2 0 1 2 0 0 1 2 0 1 ";
     static const char *const last[2] = {"2 2 1 0 2 1 ", "0 2 1 2 2 1 "};
-    (void)state;
     for (int i = 0; i < 2; i++) {
         char text[2048];
         OstMeshChunk *chunk = NULL;
@@ -477,7 +467,6 @@ static void fields_of_elements_are_those_of_their_tets(void **state)
         "$EndNodeData\n";
     char path[512];
     OstMeshChunk *chunk = NULL;
-    (void)state;
     snprintf(path, sizeof path, "/tmp/orthostat-split-%d.msh", (int)getpid());
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -527,7 +516,6 @@ static void mistakes_name_the_element_of_the_file(void **state)
         "9,2,0,0\n10,2,1,0\n11,2,0,1\n12,2,1,1\n*ELEMENT,TYPE=C3D8\n7,1,2,3,4,5,6,7,8\n8,2,9,10,3,7,11,12,6\n";
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
-    (void)state;
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
         assert_failure(read_text(wrong[w].name, wrong[w].text, &chunk),
                        strstr(wrong[w].words, "too large") ? OST_LIMIT_EXCEEDED : OST_INVALID_INPUT, wrong[w].words);
@@ -540,7 +528,6 @@ static void quadrilaterals_beside_tets_are_left_out(void **state)
 {
     static const char text[] = UNIT_NODES "*ELEMENT,TYPE=C3D4\n1,1,2,4,5\n*ELEMENT,TYPE=S4,ELSET=SHELL\n2,1,2,3,4\n";
     OstMeshChunk *chunk = NULL;
-    (void)state;
     assert_success(read_text("shell.inp", text, &chunk));
     assert_int_equal(chunk->tet_count, 1);
     assert_int_equal(chunk->tet_label[0], 1);

@@ -66,7 +66,6 @@ static const char *turtle(const char *name)
 
 static void the_homogeneous_turtle_is_read(void **state)
 {
-    (void)state;
     const char *path = turtle("turtle-volumetric-homogeneous.ortho.veg");
     if (!path)
         skip();
@@ -86,7 +85,6 @@ static void the_homogeneous_turtle_is_read(void **state)
 /* Its two sets are in files of their own, included. */
 static void the_heterogeneous_turtle_has_a_shell(void **state)
 {
-    (void)state;
     const char *path = turtle("turtle-volumetric-heterogeneous.ortho.veg");
     if (!path)
         skip();
@@ -118,7 +116,6 @@ static void the_heterogeneous_turtle_has_a_shell(void **state)
 
 static void every_material_line_is_read(void **state)
 {
-    (void)state;
     static const struct {
         const char *line;
         int nine, rotated;
@@ -158,7 +155,6 @@ static void every_material_line_is_read(void **state)
 
 static void without_a_material_there_is_vegas(void **state)
 {
-    (void)state;
     ost_log_set_level(ctx, OST_LOG_QUIET);
     read_text(MESH);
     ost_log_set_level(ctx, OST_LOG_NORMAL);
@@ -173,7 +169,6 @@ static void without_a_material_there_is_vegas(void **state)
 
 static void later_regions_override_and_the_rest_takes_the_last_material(void **state)
 {
-    (void)state;
     read_text(MESH SOFT HARD "*SET a\n1,\n*SET b\n1, 2\n*REGION\na, soft\n");
     assert_region(1, "a", "soft");
     assert_region(2, "rest", "hard");
@@ -202,7 +197,6 @@ static void later_regions_override_and_the_rest_takes_the_last_material(void **s
 
 static void numbers_start_at_zero_or_one_and_come_in_any_order(void **state)
 {
-    (void)state;
     read_text("*VERTICES\n4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n*ELEMENTS\nTET\n1 4 0\n0 0 1 2 3\n" SOFT
               "*SET s\n0\n*REGION\ns,soft\n");
     assert_int_equal(chunk->node_label[0], 0);
@@ -224,7 +218,6 @@ static void numbers_start_at_zero_or_one_and_come_in_any_order(void **state)
 
 static void windows_lines_comments_commas_and_spaces_in_names_are_taken(void **state)
 {
-    (void)state;
     read_text("# a mesh\r\n\r\n*VERTICES\r\n4 3 0 0\r\n1,0,0,0\r\n2\t1 0 0\r\n# between\r\n3 0 1e0 0\r\n 4 0 0 +1.0 "
               "\r\n*ELEMENTS\r\nTET\r\n1 4 0\r\n1 1 2 3 4\r\n*MATERIAL my soft one\r\nENU 900 2e6 .3\r\n*SET the lot "
               "\r\n1,\r\n*REGION\r\n the lot , my soft one\r\n");
@@ -234,7 +227,6 @@ static void windows_lines_comments_commas_and_spaces_in_names_are_taken(void **s
 
 static void files_include_files(void **state)
 {
-    (void)state;
     mkdir(scratch("parts"), 0700);
     write_text("parts/elements.txt", "*INCLUDE more.txt\n2 2 3 4 5\n");
     write_text("parts/more.txt", "1 1 2 3 4\n");
@@ -251,7 +243,6 @@ static void files_include_files(void **state)
 
 static void endless_and_missing_includes_are_refused(void **state)
 {
-    (void)state;
     refuse(MESH "*INCLUDE bad.veg\n", "bad.veg:13: *INCLUDE of");
     assert_non_null(strstr(ost_error_text(ctx), "it would never end"));
     write_text("a.txt", "*INCLUDE b.txt\n");
@@ -276,7 +267,6 @@ static void endless_and_missing_includes_are_refused(void **state)
 
 static void wrong_meshes_are_refused_where_they_are_wrong(void **state)
 {
-    (void)state;
     refuse("", "bad.veg: is empty");
     refuse("# nothing\n", "bad.veg:1: the file ends without *VERTICES");
     refuse(VERTICES, "bad.veg:7: the file ends without *ELEMENTS");
@@ -324,7 +314,6 @@ static void refuse_material(const char *line, const char *text)
 
 static void wrong_materials_are_refused(void **state)
 {
-    (void)state;
     refuse_material("MOONEYRIVLIN, 1000, 1, 2, 3", "is MOONEYRIVLIN, which is not linear elastic");
     refuse_material("STVK, 1", "is of kind 'STVK', expected ENU, ORTHOTROPIC");
     refuse_material("ENU, 1000, 1e6", "the line ends where nu is expected");
@@ -345,7 +334,6 @@ static void wrong_materials_are_refused(void **state)
 
 static void wrong_sets_and_regions_are_refused(void **state)
 {
-    (void)state;
     refuse(MESH "*SET s\n1, 3\n", "bad.veg:14: set 's' lists element 3, which is not among the 2 of *ELEMENTS");
     refuse(MESH "*SET s\n1, two\n", "an element of the set is 'two', expected a whole number");
     refuse(MESH "*SET s\n1\n*SET s\n2\n", "bad.veg:15: a second *SET 's'");
@@ -361,7 +349,6 @@ static void wrong_sets_and_regions_are_refused(void **state)
 
 static void every_cut_file_is_refused_or_whole(void **state)
 {
-    (void)state;
     static const char whole[] = MESH SOFT HARD "*SET a\n1\n*REGION\na, soft\n";
     const size_t mesh_length = sizeof MESH - 2;
     ost_log_set_level(ctx, OST_LOG_QUIET);
@@ -377,7 +364,6 @@ static void every_cut_file_is_refused_or_whole(void **state)
 
 static void damaged_files_do_no_harm(void **state)
 {
-    (void)state;
     static const char whole[] = MESH SOFT HARD "*SET a\n1\n*REGION\na, soft\n";
     char damaged[sizeof whole];
     unsigned random = 99;
@@ -399,7 +385,6 @@ static void damaged_files_do_no_harm(void **state)
 /* Memory goes with what is in the file, not with what it states. */
 static void stated_counts_do_not_take_memory(void **state)
 {
-    (void)state;
     const char *path = write_text("large.veg", "*VERTICES\n2000000000 3 0 0\n1 0 0 0\n2 0 0 0\n");
     const size_t before = ost_ledger_peak_bytes(ctx);
     assert_failure(read_mesh(path), OST_INVALID_INPUT, "but only 2 follow");
@@ -409,7 +394,6 @@ static void stated_counts_do_not_take_memory(void **state)
 /* It would cost every run 40 ms and 22 MiB. */
 static void gmsh_is_not_loaded_for_other_files(void **state)
 {
-    (void)state;
     char line[1024];
     read_text(MESH SOFT);
     drop_mesh();

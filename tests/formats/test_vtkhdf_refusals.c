@@ -51,7 +51,6 @@ static void write_tet(int nodes_per_tet)
 
 static void a_tet_of_ten_nodes_comes_back_with_its_boundaries_and_axes(void **state)
 {
-    (void)state;
     write_tet(10);
     OstMeshChunk *chunk = NULL;
     assert_success(ost_vtkhdf_read(ctx, path, &chunk));
@@ -136,7 +135,6 @@ static void set_type(const char *text)
 
 static void other_kinds_of_files_are_refused(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     assert_failure(ost_vtkhdf_read(ctx, "no-such.vtkhdf", &chunk), OST_FILE_FAILED,
                    "no-such.vtkhdf: could not be opened: No such file or directory");
@@ -152,7 +150,6 @@ static void other_kinds_of_files_are_refused(void **state)
 
 static void strings_of_variable_length_are_understood(void **state)
 {
-    (void)state;
     set_type("UnstructuredGrid");
     OstMeshChunk *chunk = NULL;
     assert_success(ost_vtkhdf_read(ctx, path, &chunk));
@@ -162,7 +159,6 @@ static void strings_of_variable_length_are_understood(void **state)
 /* Cut anywhere, a file is refused and nothing crashes. */
 static void truncated_files_are_refused(void **state)
 {
-    (void)state;
     write_tet(4);
     FILE *file = fopen(path, "rb");
     assert_int_equal(fseek(file, 0, SEEK_END), 0);
@@ -178,14 +174,12 @@ static void truncated_files_are_refused(void **state)
 
 static void cells_other_than_tets_are_refused_by_their_number(void **state)
 {
-    (void)state;
     damage("/VTKHDF/Types", 0, 12);
     expect_refusal(OST_INVALID_INPUT, "cell 0 has VTK's type 12; expected tets only, type 10 (4 nodes) or 24");
 }
 
 static void counts_are_not_trusted(void **state)
 {
-    (void)state;
     damage("/VTKHDF/NumberOfPoints", 0, -10);
     expect_refusal(OST_INVALID_INPUT, "NumberOfPoints of piece 0 is -10");
     damage("/VTKHDF/NumberOfPoints", 0, INT64_MAX);
@@ -212,7 +206,6 @@ static void counts_are_not_trusted(void **state)
 
 static void missing_or_odd_datasets_are_named(void **state)
 {
-    (void)state;
     replace("/VTKHDF/Connectivity", 0, 0);
     expect_refusal(OST_INVALID_INPUT, "there is no dataset /VTKHDF/Connectivity");
     replace("/VTKHDF/PointData/vertex", H5T_NATIVE_INT64, 9);
@@ -223,7 +216,6 @@ static void missing_or_odd_datasets_are_named(void **state)
 
 static void names_of_parts_are_checked(void **state)
 {
-    (void)state;
     damage("/VTKHDF/CellData/region", 0, 5);
     expect_refusal(OST_INVALID_INPUT, "cell 0 is of region 5; the file names 1 regions");
     damage("/Orthostat/BoundaryKinds", 0, 3);
@@ -236,7 +228,6 @@ static void names_of_parts_are_checked(void **state)
 
 static int remove_file(void **state)
 {
-    (void)state;
     remove(path);
     return 0;
 }

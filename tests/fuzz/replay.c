@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Runs a fuzz target without libFuzzer: `replay_x FOLDER RUNS` gives it every file of a corpus, then that many
  * mutations of them, the same ones every time; `replay_x FILE` one file. An input that ends the program is kept as

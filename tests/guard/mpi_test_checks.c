@@ -107,7 +107,6 @@ static int objects_to(const Solved *solved, const char *words)
 
 static void an_answer_passes(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Solved solved = make(order);
         const OstChecks *checks = &solved.result.checks;
@@ -123,7 +122,6 @@ static void an_answer_passes(void **state)
 
 static void a_slip_in_the_displacement_is_seen(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Solved solved = make(order);
         for (OstLocal i = 0; i < 3 * solved.mesh->node_count; i++)
@@ -137,7 +135,6 @@ static void a_slip_in_the_displacement_is_seen(void **state)
 /* u + 1e-6 u has 2e-6 more energy, and does 1e-6 more work. */
 static void a_difference_of_work_and_energy_is_an_error(void **state)
 {
-    (void)state;
     for (int moved = 0; moved < 2; moved++) {
         Solved solved = moved ? make(1) : make_held(1, (const double[3]){0.0, 0.0, 0.0}, 1.0);
         const OstChecks *checks = &solved.result.checks;
@@ -156,7 +153,6 @@ static void a_difference_of_work_and_energy_is_an_error(void **state)
 /* Loads that the answer does not belong to: what the right-hand side is said to be does not count. */
 static void a_load_that_nothing_carries_is_seen(void **state)
 {
-    (void)state;
     Solved solved = make(1);
     for (OstLocal node = 0; node < solved.mesh->owned_nodes; node++)
         solved.result.force[3 * node] += 0.5;
@@ -167,7 +163,6 @@ static void a_load_that_nothing_carries_is_seen(void **state)
 
 static void what_is_no_number_is_seen(void **state)
 {
-    (void)state;
     Solved solved = make(1);
     if (ost_rank(ctx) == ost_size(ctx) - 1)
         solved.result.displacement[4] = NAN;
@@ -181,7 +176,6 @@ static void what_is_no_number_is_seen(void **state)
 /* Of a nonlinear problem the energy is not half the work: nothing is concluded from their difference. */
 static void energy_and_work_are_compared_in_linear_problems_alone(void **state)
 {
-    (void)state;
     for (int linear = 0; linear < 2; linear++) {
         Solved solved = make_held(1, (const double[3]){0.0, 0.0, 0.0}, 1.0);
         const OstChecks *checks = &solved.result.checks;
@@ -216,7 +210,6 @@ static void load_the_support(Solved *solved, double force)
 
 static void a_force_straight_into_a_support_is_no_miss(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Solved solved = make(order);
         load_the_support(&solved, 1e10);
@@ -228,7 +221,6 @@ static void a_force_straight_into_a_support_is_no_miss(void **state)
 
 static void a_force_straight_into_a_support_hides_no_miss(void **state)
 {
-    (void)state;
     Solved solved = make(1);
     const OstChecks *checks = &solved.result.checks;
     load_the_support(&solved, 1e8);
@@ -243,7 +235,6 @@ static void a_force_straight_into_a_support_hides_no_miss(void **state)
 
 static void rounding_that_leaves_no_correct_digit_is_refused(void **state)
 {
-    (void)state;
     Solved solved = make(1);
     OstSolveReport *report = &solved.result.solve;
     report->rounding_error = 0.09;
@@ -287,7 +278,6 @@ static void rounding_that_leaves_no_correct_digit_is_refused(void **state)
 /* How right the strains are beside a displacement that all share; by the two norms that an estimate may be in. */
 static void forces_lost_beside_a_common_displacement_are_seen(void **state)
 {
-    (void)state;
     const OstMethod norms[] = {OST_METHOD_METRIC, OST_METHOD_DIRECT};
     for (int n = 0; n < 2; n++) {
         Solved solved = make_along(1, 1e4, 1.0);
@@ -321,7 +311,6 @@ static void forces_lost_beside_a_common_displacement_are_seen(void **state)
 /* Its forces are rounding errors alone, and so out of balance by their own size. */
 static void a_rigid_motion_has_no_forces_to_lose(void **state)
 {
-    (void)state;
     Solved solved = make_along(1, 1e4, 0.0);
     solved.result.solve.energy_error = solved.result.solve.error_estimate = 1e-3; /* 1e4 times what deforms it */
     check(&solved);
@@ -335,7 +324,6 @@ static void a_rigid_motion_has_no_forces_to_lose(void **state)
 
 static void forces_are_as_right_as_the_displacement_where_nothing_is_moved(void **state)
 {
-    (void)state;
     Solved solved = make_along(1, 0.0, 1.0);
     const OstChecks *checks = &solved.result.checks;
     check(&solved);
@@ -374,7 +362,6 @@ static void assert_linearity(const double g[9], double strain, double rotation)
 
 static void large_strains_and_rotations_are_measured(void **state)
 {
-    (void)state;
     assert_linearity((const double[9]){0.0, -0.3, 0.2, 0.3, 0.0, -0.6, -0.2, 0.6, 0.0}, 0.0, 0.7);
     assert_linearity((const double[9]){0.1, 0.0, 0.0, 0.0, -0.25, 0.0, 0.0, 0.0, 0.2}, 0.25, 0.0);
     assert_linearity((const double[9]){0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.04}, 0.04, 0.0);
@@ -393,7 +380,6 @@ static void large_strains_and_rotations_are_measured(void **state)
 /* One tet is enough, on whichever rank it is. */
 static void the_largest_of_all_ranks_counts(void **state)
 {
-    (void)state;
     Solved solved = make(1);
     const OstMesh *mesh = solved.mesh;
     memset(solved.result.displacement, 0, 3 * (size_t)mesh->node_count * sizeof(double));

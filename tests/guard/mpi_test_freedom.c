@@ -77,7 +77,6 @@ static OstMesh *one_tet(double scale, double shift)
 
 static void a_tet_turns_about_a_vertex_or_an_edge_and_rests_on_three_vertices(void **state)
 {
-    (void)state;
     OstMesh *mesh = one_tet(1.0, 0.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 1, 1);
@@ -96,7 +95,6 @@ static void a_tet_turns_about_a_vertex_or_an_edge_and_rests_on_three_vertices(vo
 
 static void units_and_places_change_nothing(void **state)
 {
-    (void)state;
     OstMesh *mesh = one_tet(1e-6, 0.0);
     OstSupports *supports = new_supports(mesh);
     hold_labels(supports, 2, 2);
@@ -117,7 +115,6 @@ static void units_and_places_change_nothing(void **state)
 
 static void a_body_held_at_one_component_can_do_all_the_rest(void **state)
 {
-    (void)state;
     OstMesh *mesh = one_tet(1.0, 0.0);
     OstSupports *supports = new_supports(mesh);
     hold(supports, 1, 0.0, 0.0, 1.0);
@@ -131,7 +128,6 @@ static void a_body_held_at_one_component_can_do_all_the_rest(void **state)
 /* Each vertex may move along the velocity of a screw of pitch 1 about z through (2, 0, 0), and not across it. */
 static void a_screw_is_called_a_twist_with_its_pitch(void **state)
 {
-    (void)state;
     OstMesh *mesh = one_tet(1.0, 0.0);
     OstSupports *supports = new_supports(mesh);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
@@ -152,7 +148,6 @@ static void a_screw_is_called_a_twist_with_its_pitch(void **state)
 
 static void a_block_on_a_plane_slides_and_turns_on_it_and_rests_in_a_corner(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}};
     OstMesh *mesh = lattice_mesh(2, cell, 1.0);
     for (int planes = 1; planes <= 3; planes++) {
@@ -178,7 +173,6 @@ static void a_block_on_a_plane_slides_and_turns_on_it_and_rests_in_a_corner(void
 
 static void a_tube_on_its_cylinder_turns_about_its_axis_and_moves_along_it(void **state)
 {
-    (void)state;
     const OstTubeShape tube = {0, {1.0, 2.0, 3.0}, 4.0, {0.9, 1.5}, 12, 1, 4};
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
@@ -206,7 +200,6 @@ static void a_tube_on_its_cylinder_turns_about_its_axis_and_moves_along_it(void 
 
 static void a_loose_block_is_named_and_a_held_one_is_not(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{4, 0, 0}, 0}, {{5, 0, 0}, 0}};
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -218,7 +211,6 @@ static void a_loose_block_is_named_and_a_held_one_is_not(void **state)
 
 static void a_block_on_an_edge_turns_about_it_at_any_scale(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}};
     const char *line[] = {
         "component 2, 6 tets around (1.5e-06, 1.5e-06, 5e-07), joined to component 1 along one line only: can "
@@ -247,7 +239,6 @@ static void a_block_on_an_edge_turns_about_it_at_any_scale(void **state)
 
 static void a_block_on_a_vertex_turns_about_any_line_through_it(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 1}, 0}};
     OstMesh *mesh = lattice_mesh(2, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -261,7 +252,6 @@ static void a_block_on_a_vertex_turns_about_any_line_through_it(void **state)
 
 static void of_a_chain_each_hinge_is_named_with_what_hangs_on_it(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{2, 2, 0}, 0}};
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -278,7 +268,6 @@ static void of_a_chain_each_hinge_is_named_with_what_hangs_on_it(void **state)
 
 static void a_floating_chain_moves_as_a_whole_and_at_its_hinges(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{2, 2, 0}, 0}};
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -298,7 +287,6 @@ static void a_floating_chain_moves_as_a_whole_and_at_its_hinges(void **state)
 /* Four blocks in a ring, hinged at four edges: a parallelogram, which has one motion that no set of blocks shares. */
 static void a_ring_of_four_hinges_is_a_linkage(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{1, 0, 0}, 0}, {{2, 1, 0}, 0}, {{1, 2, 0}, 0}, {{0, 1, 0}, 0}};
     OstMesh *mesh = lattice_mesh(4, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -313,7 +301,6 @@ static void a_ring_of_four_hinges_is_a_linkage(void **state)
 /* Three hinges make a triangle, which is stiff. */
 static void a_ring_of_three_hinges_is_rigid(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 1, 1}, 0}};
     OstMesh *mesh = lattice_mesh(3, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -324,7 +311,6 @@ static void a_ring_of_three_hinges_is_rigid(void **state)
 
 static void coincident_vertices_are_the_way_out_that_is_offered(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 1}};
     OstMesh *mesh = lattice_mesh(2, cell, 1.0);
     OstSupports *supports = new_supports(mesh);
@@ -338,7 +324,6 @@ static void coincident_vertices_are_the_way_out_that_is_offered(void **state)
 
 static void many_loose_parts_fill_ten_lines_and_are_counted(void **state)
 {
-    (void)state;
     Cell cell[LATTICE_CELLS];
     for (int i = 0; i < LATTICE_CELLS; i++)
         cell[i] = (Cell){{2 * (i % 4), 2 * (i / 4), 0}, 0};
@@ -359,7 +344,6 @@ static void many_loose_parts_fill_ten_lines_and_are_counted(void **state)
 /* 256 cells that touch in edges alone, hanging on one vertex: more than are solved as a linkage. */
 static void a_great_many_hinged_parts_are_still_asked_whether_all_can_move_as_one(void **state)
 {
-    (void)state;
     Cell *cell = malloc(sizeof *cell * 512);
     int cells = 0;
     for (int i = 0; i < 512; i++)

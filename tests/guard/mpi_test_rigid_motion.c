@@ -91,7 +91,6 @@ static void destroy(Body *body)
 
 static void every_kind_of_tet_is_free_in_rigid_motion(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++)
         for (int held = 0; held < 2; held++) {
             Body body = make(kind, held);
@@ -107,7 +106,6 @@ static void every_kind_of_tet_is_free_in_rigid_motion(void **state)
 /* The near-null space is the six rigid modes about the middle of the rows, as far as supports leave them. */
 static void multigrid_is_given_the_rigid_modes(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Body body = make(kind, 1);
         const OstLocal rows = body.system->matrix->rows;
@@ -137,7 +135,6 @@ static void multigrid_is_given_the_rigid_modes(void **state)
 /* A wrong sign in one turn, as one gets by taking the product the other way round. */
 static void a_wrong_mode_is_named(void **state)
 {
-    (void)state;
     static const char *const word[6] = {"a move along x",          "a move along y",
                                         "a move along z",          "a turn about the x axis",
                                         "a turn about the y axis", "a turn about the z axis"};
@@ -156,7 +153,6 @@ static void a_wrong_mode_is_named(void **state)
 /* One number of one block off by 1e-4 of it: a slip in the sum over tets. */
 static void a_wrong_matrix_is_named(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Body body = make(kind, 0);
         const OstBlockMatrix *matrix = body.system->matrix;
@@ -175,7 +171,6 @@ static void a_wrong_matrix_is_named(void **state)
 
 static void a_tet_without_a_number_is_named(void **state)
 {
-    (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         Body body = make(kind, 0);
         char tet[64] = "resists";

@@ -6,7 +6,6 @@
 
 static void a_flat_tet_is_named_by_number_place_and_quality(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_flattened(ctx, 1.0, 1e-8);
     char words[OST_WORST_TET_SIZE];
     OstGlobal label = 0;
@@ -31,7 +30,6 @@ static void a_flat_tet_is_named_by_number_place_and_quality(void **state)
 
 static void good_tets_are_not_blamed(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_body(ctx);
     char words[OST_WORST_TET_SIZE];
     assert_success(ost_guard_worst_tet(mesh, words));
@@ -42,7 +40,6 @@ static void good_tets_are_not_blamed(void **state)
 /* The refusal of a solver that did not converge names the tet. */
 static void a_refusal_names_it(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_flattened(ctx, 1.0, 1e-8);
     const OstProblem problem = {.ctx = ctx, .mesh = mesh};
     const OstStatus failed = OST_RAISE(ctx, OST_NOT_CONVERGED, "the solver gave up");

@@ -16,13 +16,7 @@ void hard_direct_clear(HardDirect *direct)
     ost_scaling_destroy(&direct->scaling);
     ost_system_destroy(&direct->system);
     ost_supports_destroy(&direct->supports);
-    OST_FREE(direct->force);
-    OST_FREE(direct->f);
-    OST_FREE(direct->u);
-    OST_FREE(direct->r);
-    OST_FREE(direct->d);
-    OST_FREE(direct->p);
-    OST_FREE(direct->q);
+    OST_FREE(direct->force, direct->f, direct->u, direct->r, direct->d, direct->p, direct->q);
 }
 
 static OstStatus assemble(const OstScene *scene, HardDirect *direct)

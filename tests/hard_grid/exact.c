@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "core/small.h"
 #include "hard_grid/exact_tet.h"
 
 #include <math.h>
@@ -235,13 +234,7 @@ static OstStatus create_exact(const OstScene *scene, HardDirect *direct, const O
 
 static void destroy_exact(Exact *exact)
 {
-    OST_FREE(exact->u);
-    OST_FREE(exact->internal);
-    OST_FREE(exact->step);
-    OST_FREE(exact->rows);
-    OST_FREE(exact->turned);
-    OST_FREE(exact->before);
-    OST_FREE(exact->turn);
+    OST_FREE(exact->u, exact->internal, exact->step, exact->rows, exact->turned, exact->before, exact->turn);
 }
 
 OstStatus hard_find_exact(const OstScene *scene, HardDirect *direct, const OstResult *result, HardErrors *errors)

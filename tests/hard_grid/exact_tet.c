@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "hard_grid/exact_tet.h"
 
-#include "core/small.h"
 #include "element/quadrature.h"
 #include "element/tets.h"
 

@@ -4,7 +4,6 @@
 #include "hard_grid/grid.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static json_t *reading_json(const HardReading *reading)
 {

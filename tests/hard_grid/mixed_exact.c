@@ -217,8 +217,6 @@ OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, c
     OST_THEN(solve(&exact, &errors->known));
     if (errors->known)
         OST_THEN(compare(&exact, result, errors));
-    OST_FREE(exact.u);
-    OST_FREE(exact.internal);
-    OST_FREE(exact.ru);
+    OST_FREE(exact.u, exact.internal, exact.ru);
     return status;
 }

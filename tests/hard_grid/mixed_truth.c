@@ -39,9 +39,7 @@ static void clear(Mixed *mixed)
     ost_coupling_destroy(&mixed->b);
     ost_pressure_space_destroy(&mixed->space);
     hard_direct_clear(&mixed->direct);
-    OST_FREE(mixed->p);
-    OST_FREE(mixed->sum);
-    OST_FREE(mixed->memory);
+    OST_FREE(mixed->p, mixed->sum, mixed->memory);
 }
 
 static OstStatus create(const OstScene *scene, Mixed *mixed)

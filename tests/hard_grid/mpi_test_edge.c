@@ -30,7 +30,6 @@ static HardReading read_point(const char *words)
  * as stated. */
 static void what_the_stiffness_has_lost_is_refused_or_corrected(void **state)
 {
-    (void)state;
     const char *const words[] = {"plate, order 2, nu 0.49, E3 x 1e+06, aligned",
                                  "plate, order 2, nu 0.3, E1 x 1e+06, cylindrical"};
     for (int k = 0; k < 2; k++) {
@@ -50,7 +49,6 @@ static void what_the_stiffness_has_lost_is_refused_or_corrected(void **state)
  * rightly; none may be given up or stated wrongly. */
 static void what_rounding_has_cost_is_corrected(void **state)
 {
-    (void)state;
     const char *const words[] = {
         "beam, order 2, nu 0.45, E3 x 1e+06, aligned",         "beam, order 2, 0.999 of border, E3 x 1e+06, aligned",
         "plate, order 2, nu -0.5, E3 x 1000, aligned",         "plate, order 2, nu 0.45, E3 x 1e+06, smooth",

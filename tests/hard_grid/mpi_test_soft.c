@@ -3,15 +3,11 @@
 
 #include "hard_grid/grid.h"
 
-#include <math.h>
-#include <string.h>
-
 /* Inclusions 1e9 times softer in a body of nu = 1/2, without a factorisation: their mean pressures, which the stiff
  * body alone holds, are solved for on their own. By the mass matrix alone the first takes 316 iterations and states no
  * digit, and the second 418. */
 static void soft_inclusions_are_solved_by_iterations(void **state)
 {
-    (void)state;
     const HardPoint soft = {
         .shape = hard_find_shape("soft"), .order = 2, .poisson = HARD_INCOMPRESSIBLE, .iterated = 1};
     for (int ratio = 0; ratio < 2; ratio++) {

@@ -41,7 +41,6 @@ static OstScene *make_scene(const Body *body, HardCase *hard)
 
 static void what_is_accepted_is_stated_rightly(void **state)
 {
-    (void)state;
     const Body bodies[] = {
         {"beam", 2, {40, 1, 1}, 400.0, 0.0, OST_METHOD_DIRECT, 0.0},
         {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_DIRECT, 0.0},
@@ -74,7 +73,6 @@ static void what_is_accepted_is_stated_rightly(void **state)
 /* What a residual of a hundredth or of a thousandth leaves, where moduli differ. */
 static void what_a_large_residual_leaves_is_stated(void **state)
 {
-    (void)state;
     const Body bodies[] = {
         {"beam", 2, {40, 1, 1}, 100.0, 0.0, OST_METHOD_METRIC, 1e-2},
         {"beam", 1, {200, 1, 1}, 200.0, 0.0, OST_METHOD_TWO_LEVEL, 1e-3},
@@ -100,7 +98,6 @@ static void what_a_large_residual_leaves_is_stated(void **state)
 /* Rounding of the assembled stiffness took a quarter of this beam's displacement. */
 static void a_slender_beam_keeps_its_digits(void **state)
 {
-    (void)state;
     const Body body = {"beam", 2, {200, 1, 1}, 4000.0, 0.0, OST_METHOD_DIRECT, 0.0};
     HardCase hard;
     HardReading reading = {.point = {0}};
@@ -114,7 +111,6 @@ static void a_slender_beam_keeps_its_digits(void **state)
 /* Its stiff parts hold no digit of a strain beside the displacement: their stresses are lost. */
 static void what_holds_no_digit_is_refused_for_rounding(void **state)
 {
-    (void)state;
     const Body body = {"stiff", 1, {6, 6, 4}, 0.0, 1e17, OST_METHOD_DIRECT, 0.0};
     HardCase hard;
     OstScene *scene = make_scene(&body, &hard);
@@ -133,7 +129,6 @@ static void what_holds_no_digit_is_refused_for_rounding(void **state)
  * of the energy, was a quarter of that of the reactions. */
 static void what_forces_hold_more_of_is_stated(void **state)
 {
-    (void)state;
     const HardPoint point = {
         .shape = hard_find_shape("checker"), .order = 1, .poisson = 6, .ratio = 2, .stiff = 2, .axes = 1};
     HardReading reading = {.outcome = HARD_OUTCOMES};

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 /* Printed in place of a number. */
 static const char *mark_of(const HardReading *reading)

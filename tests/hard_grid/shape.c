@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "core/error.h"
 #include "hard_grid/grid.h"
 
 #include <math.h>

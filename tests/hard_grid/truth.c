@@ -110,8 +110,7 @@ static OstStatus find_rounded(HardDirect *direct, HardTruth *truth)
     OST_TRY_DONE(ost_halo_import(matrix->halo, 3 * sizeof *u, u));
     OST_TRY_DONE(try_roundings(direct, u, force, truth));
 done:
-    OST_FREE(u);
-    OST_FREE(force);
+    OST_FREE(u, force);
     return status;
 }
 

@@ -6,7 +6,6 @@
 
 static void axes_are_made_orthonormal_to_rounding(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < 200; trial++) {
         double axes[9], given[9];
         random_axes(axes);
@@ -20,14 +19,12 @@ static void axes_are_made_orthonormal_to_rounding(void **state)
 
 static void left_handed_axes_are_refused(void **state)
 {
-    (void)state;
     double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, -1};
     assert_failure(ost_axes_check(ctx, "tet 12", axes), OST_INVALID_INPUT, "tet 12: the axes are left-handed");
 }
 
 static void skew_stretched_and_broken_axes_are_refused(void **state)
 {
-    (void)state;
     double skew[9] = {1, 0, 0, 0.6, 0.8, 0, 0, 0, 1};
     double leaning[9] = {1, 0, 0, 3, 4, 0, 0, 0, 1};
     double slightly_skew[9] = {1, 0, 0, 2e-6, 1, 0, 0, 0, 1};
@@ -46,7 +43,6 @@ static void skew_stretched_and_broken_axes_are_refused(void **state)
 /* R = Rz(a) Rx(b) Rz(c) multiplied out by hand; rows of `axes` are its columns. */
 static void euler_angles_turn_about_the_turned_frame(void **state)
 {
-    (void)state;
     const double degrees[3] = {20, 50, -35};
     const double a = degrees[0] * M_PI / 180, b = degrees[1] * M_PI / 180, c = degrees[2] * M_PI / 180;
     const double expected[9] = {cos(a) * cos(c) - sin(a) * cos(b) * sin(c),
@@ -66,7 +62,6 @@ static void euler_angles_turn_about_the_turned_frame(void **state)
 
 static void fixed_and_turned_sequences_mirror_each_other(void **state)
 {
-    (void)state;
     const double degrees[3] = {10, 70, 130}, reversed[3] = {130, 70, 10};
     double fixed[9], turned[9];
     assert_success(ost_axes_from_euler(ctx, "XYZ", degrees, fixed));
@@ -79,7 +74,6 @@ static void fixed_and_turned_sequences_mirror_each_other(void **state)
 
 static void unknown_sequences_and_angles_are_refused(void **state)
 {
-    (void)state;
     static const char *const bad[] = {"zz", "zzx", "xyw", "xYz", "zxzx", ""};
     const double degrees[3] = {1, 2, 3}, broken[3] = {1, INFINITY, 3};
     double axes[9];
@@ -90,7 +84,6 @@ static void unknown_sequences_and_angles_are_refused(void **state)
 
 static void quaternions_agree_with_euler_angles(void **state)
 {
-    (void)state;
     const double half = 25.0 * M_PI / 180;
     const double about_y[4] = {7 * cos(half), 0, 7 * sin(half), 0}, degrees[3] = {0, 50, 0};
     const double tiny[4] = {1e-200 * cos(half), 0, 1e-200 * sin(half), 0};
@@ -114,7 +107,6 @@ static void quaternions_agree_with_euler_angles(void **state)
  */
 static void two_directions_keep_their_senses(void **state)
 {
-    (void)state;
     const double d1[3] = {3, 0, 4}, d2[3] = {1, 2, 0};
     for (int first = 0; first < 3; first++)
         for (int second = 0; second < 3; second++) {
@@ -131,7 +123,6 @@ static void two_directions_keep_their_senses(void **state)
 
 static void fixed_axes_are_the_same_everywhere(void **state)
 {
-    (void)state;
     OstAxesSpec spec = {.kind = OST_AXES_FIXED, .fixed = {0, 1, 0, 0, 0, 1, 1, 0, 0}};
     const double point[3] = {3, -2, 8};
     double axes[9];
@@ -146,7 +137,6 @@ static void fixed_axes_are_the_same_everywhere(void **state)
 
 static void kinds_that_vary_say_so(void **state)
 {
-    (void)state;
     for (OstAxesKind kind = OST_AXES_NONE; kind <= OST_AXES_GRADIENT; kind++) {
         const OstAxesSpec spec = {.kind = kind};
         assert_int_equal(ost_axes_vary(&spec), kind >= OST_AXES_CYLINDRICAL);
@@ -155,7 +145,6 @@ static void kinds_that_vary_say_so(void **state)
 
 static void cylindrical_axes_follow_the_wall(void **state)
 {
-    (void)state;
     const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
                               .origin = {1, 2, 3},
                               .axis = {0, 5, 0},
@@ -173,7 +162,6 @@ static void cylindrical_axes_follow_the_wall(void **state)
 
 static void every_order_of_the_frame_is_right_handed(void **state)
 {
-    (void)state;
     for (int m = 0; m < 27; m++) {
         const int a = m / 9, b = m / 3 % 3, c = m % 3;
         const OstAxesSpec spec = {
@@ -199,7 +187,6 @@ static void every_order_of_the_frame_is_right_handed(void **state)
 
 static void points_on_the_cylinders_axis_are_refused(void **state)
 {
-    (void)state;
     OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
                         .origin = {1, 1, 1},
                         .axis = {1, 1, 1},
@@ -216,7 +203,6 @@ static void points_on_the_cylinders_axis_are_refused(void **state)
 
 static void gradients_give_axes_in_harmony(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < 200; trial++) {
         double g1[3], g2[3], axes[9], scaled[9], along = 0.0, across = 0.0, rest = 0.0, norm = 0.0;
         for (int i = 0; i < 3; i++) {
@@ -245,7 +231,6 @@ static void gradients_give_axes_in_harmony(void **state)
 
 static void gradients_without_direction_are_refused(void **state)
 {
-    (void)state;
     const double g[3] = {1, 2, 3}, parallel[3] = {2, 4, 6}, zero[3] = {0}, tiny[3] = {1e-12, 0, 0};
     const double broken[3] = {1, NAN, 0};
     double axes[9];

@@ -56,7 +56,6 @@ static void assert_matrices_close(const double *a, const double *b, double toler
 
 static void stiffness_and_compliance_are_those_of_equations_4_to_8(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         const OstMaterial material = random_material();
         double s[36], c[36];
@@ -68,7 +67,6 @@ static void stiffness_and_compliance_are_those_of_equations_4_to_8(void **state)
 
 static void stiffness_times_compliance_is_identity(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         const OstMaterial material = random_material();
         for (int i = 0; i < 6; i++)
@@ -84,7 +82,6 @@ static void stiffness_times_compliance_is_identity(void **state)
 
 static void matrices_are_symmetric_to_the_last_bit(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         const OstMaterial material = random_material();
         for (int i = 0; i < 6; i++)
@@ -97,7 +94,6 @@ static void matrices_are_symmetric_to_the_last_bit(void **state)
 
 static void either_ratio_of_a_pair_gives_the_same_material(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         const OstMaterial material = random_material();
         const double *e = material.constants.youngs_modulus;
@@ -125,7 +121,6 @@ static void either_ratio_of_a_pair_gives_the_same_material(void **state)
 
 static void named_constants_that_are_missing_or_contradict_are_refused(void **state)
 {
-    (void)state;
     const double e[3] = {1, 2, 4}, g[3] = {1, 1, 1};
     const double none31[6] = {0.1, NAN, 0.1, NAN, NAN, NAN};
     const double contradict[6] = {0.1, 0.1, 0.1, NAN, 0.1, NAN};
@@ -148,7 +143,6 @@ static void named_constants_that_are_missing_or_contradict_are_refused(void **st
 /* C of the family by eq. 24 and 25, with the means of eq. 22. */
 static void family_has_the_stiffness_of_equations_24_and_25(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         double e[3], expected[36] = {0};
         random_moduli(12.0, e);
@@ -171,7 +165,6 @@ static void family_has_the_stiffness_of_equations_24_and_25(void **state)
 
 static void family_obeys_equations_17_to_19_and_23(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < TRIALS; trial++) {
         double e[3], product[3];
         random_moduli(12.0, e);
@@ -196,7 +189,6 @@ static void family_obeys_equations_17_to_19_and_23(void **state)
 
 static void equal_moduli_make_the_family_isotropic(void **state)
 {
-    (void)state;
     const double e[3] = {7e9, 7e9, 7e9};
     for (OstShearRule rule = OST_SHEAR_GEOMETRIC; rule <= OST_SHEAR_MAX; rule++) {
         const OstOrthotropic family = ost_orthotropic_family(e, 0.3, rule);
@@ -211,7 +203,6 @@ static void equal_moduli_make_the_family_isotropic(void **state)
 
 static void isotropic_stiffness_is_lames(void **state)
 {
-    (void)state;
     const double e = 2.1e11, nu = 0.28;
     const double lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), mu = e / (2.0 * (1.0 + nu));
     const OstOrthotropic body = ost_orthotropic_isotropic(e, nu);
@@ -230,7 +221,6 @@ static void isotropic_stiffness_is_lames(void **state)
 
 static void only_isotropic_constants_are_called_isotropic(void **state)
 {
-    (void)state;
     for (int changed = 0; changed < 9; changed++) {
         OstOrthotropic constants = ost_orthotropic_isotropic(1e6, 0.3);
         double *values[9] = {&constants.youngs_modulus[0], &constants.youngs_modulus[1], &constants.youngs_modulus[2],
@@ -248,7 +238,6 @@ static void only_isotropic_constants_are_called_isotropic(void **state)
 
 static void transverse_constants_follow_section_3_1(void **state)
 {
-    (void)state;
     const double ep = 2.0, ez = 50.0, nu_p = 0.25;
     OstOrthotropic m = ost_orthotropic_transverse(ep, ez, nu_p, 0.01, 3.0);
     const double expected[9] = {ep, ep, ez, nu_p, 0.01, 0.01 * ez / ep, ep / (2.0 * (1.0 + nu_p)), 3.0, 3.0};
@@ -266,7 +255,6 @@ static void transverse_constants_follow_section_3_1(void **state)
 
 static void words_name_the_axis_of_each_modulus(void **state)
 {
-    (void)state;
     char text[OST_MODULI_WORDS];
     OstOrthotropic constants = ost_orthotropic_transverse(1.0, 88.0, 0.3, NAN, NAN);
     ost_orthotropic_words(&constants, text);

@@ -13,7 +13,6 @@ static OstAxesSpec along(int point_count, double *points)
 
 static void a_straight_curve_has_one_frame(void **state)
 {
-    (void)state;
     double points[6] = {0, 0, 0, 0, 0, 4};
     OstAxesSpec spec = along(2, points);
     spec.up[1] = 3.0;
@@ -40,7 +39,6 @@ static void make_arc(double points[3 * ARC_POINTS])
 
 static void axes_along_an_arc_are_those_of_the_circle(void **state)
 {
-    (void)state;
     double points[3 * ARC_POINTS];
     make_arc(points);
     OstAxesSpec spec = along(ARC_POINTS, points);
@@ -78,7 +76,6 @@ static double largest_step(const OstAxesSpec *spec, const double from[3], const 
 
 static void axes_vary_continuously_round_sharp_corners(void **state)
 {
-    (void)state;
     double points[12] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 2, 2, 3};
     OstAxesSpec spec = along(4, points);
     for (int with_up = 0; with_up < 2; with_up++) {
@@ -99,7 +96,6 @@ static void axes_vary_continuously_round_sharp_corners(void **state)
 
 static void the_normal_of_a_plane_stays_when_carried_along_in_it(void **state)
 {
-    (void)state;
     double points[3 * ARC_POINTS];
     make_arc(points);
     const OstAxesSpec spec = along(ARC_POINTS, points);
@@ -116,7 +112,6 @@ static void the_normal_of_a_plane_stays_when_carried_along_in_it(void **state)
  * rise h, by the angle 2π (1 - h / sqrt((2πr)² + h²)) (the sphere's area that the tangent goes round). */
 static void normals_turn_least_along_a_helix(void **state)
 {
-    (void)state;
     enum { COUNT = 2001 };
     const double r = 1.0, h = 3.0;
     double points[3 * COUNT], first[9], last[9];
@@ -140,7 +135,6 @@ static void normals_turn_least_along_a_helix(void **state)
 
 static void a_closed_curve_has_one_tangent_where_it_closes(void **state)
 {
-    (void)state;
     double points[15] = {1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 1, 0, 0};
     OstAxesSpec spec = along(5, points);
     spec.up[2] = 1.0;
@@ -152,7 +146,6 @@ static void a_closed_curve_has_one_tangent_where_it_closes(void **state)
 
 static void useless_curves_are_refused(void **state)
 {
-    (void)state;
     double points[9] = {0, 0, 0, 1, 0, 0, 1, 0, 0}, back[9] = {0, 0, 0, 1, 0, 0, 0.5, 0, 0};
     double broken[6] = {0, 0, 0, 1, INFINITY, 0};
     const double point[3] = {0.2, 1, 0};

@@ -18,7 +18,6 @@ static OstStatus create(const OstOrthotropic *constants)
 
 static void the_papers_naive_examples_fail(void **state)
 {
-    (void)state;
     const OstOrthotropic a = naive(1, 1, 4, 0.45), b = naive(1, 1, 10, 0.3);
     assert_failure(create(&a), OST_INVALID_INPUT, "material 'wood' is not stable");
     assert_non_null(strstr(ost_error_text(ctx), "= -0.245375 must be positive")); /* eq. 8 by hand */
@@ -29,7 +28,6 @@ static void the_papers_naive_examples_fail(void **state)
 
 static void a_pair_beyond_its_bound_is_named(void **state)
 {
-    (void)state;
     const OstOrthotropic constants = {{1, 4, 1}, {0.1, 0.1, 1.2}, {1, 1, 1}};
     assert_failure(create(&constants), OST_INVALID_INPUT, "nu31² = 1.44 must be below E3/E1 = 1 (nu13 is 1.2)");
 }
@@ -46,7 +44,6 @@ static void numbers_after(const char *word, double nu[3])
 
 static void suggested_values_are_stable_and_the_largest(void **state)
 {
-    (void)state;
     int refused = 0;
     for (int trial = 0; trial < 2000; trial++) {
         OstOrthotropic constants;
@@ -73,7 +70,6 @@ static void suggested_values_are_stable_and_the_largest(void **state)
 
 static void family_proposed_keeps_the_nu_that_was_meant(void **state)
 {
-    (void)state;
     const OstOrthotropic a = naive(1, 1, 4, 0.45);
     assert_failure(create(&a), OST_INVALID_INPUT,
                    "nu = 0.45 means nu12 = 0.45 (nu21 = 0.45), nu23 = 0.225 (nu32 = 0.9), nu31 = 0.9 (nu13 = 0.225)");
@@ -81,7 +77,6 @@ static void family_proposed_keeps_the_nu_that_was_meant(void **state)
 
 static void family_is_stable_for_all_moduli_and_nu(void **state)
 {
-    (void)state;
     for (int trial = 0; trial < 20000; trial++) {
         double e[3], eigenvalues[3];
         random_moduli(12.0, e);
@@ -97,7 +92,6 @@ static void family_is_stable_for_all_moduli_and_nu(void **state)
 
 static void family_at_its_ends_is_refused(void **state)
 {
-    (void)state;
     const double e[3] = {1, 10, 1e6}, outside[4] = {0.5 + 1e-12, 0.7, -1.0, -1.3};
     for (int i = 0; i < 4; i++) {
         const OstOrthotropic constants = ost_orthotropic_family(e, outside[i], OST_SHEAR_GEOMETRIC);
@@ -112,7 +106,6 @@ static void family_at_its_ends_is_refused(void **state)
 
 static void bad_numbers_are_refused_by_name_and_value(void **state)
 {
-    (void)state;
     static const char *const names[9] = {"E1", "E2", "E3", "nu12", "nu23", "nu31", "G12", "G23", "G31"};
     const double bad[4] = {NAN, INFINITY, 0.0, -3.0};
     for (int k = 0; k < 9; k++)
@@ -132,7 +125,6 @@ static void bad_numbers_are_refused_by_name_and_value(void **state)
 
 static void ratios_are_stable_inside_their_range_only(void **state)
 {
-    (void)state;
     int checked = 0;
     for (int trial = 0; trial < 500; trial++) {
         OstOrthotropic constants;
@@ -166,7 +158,6 @@ static void ratios_are_stable_inside_their_range_only(void **state)
 
 static void scale_meets_the_boundary(void **state)
 {
-    (void)state;
     OstOrthotropic constants = {{3, 1, 20}, {0.2, -0.1, 0.4}, {1, 1, 1}};
     double eigenvalues[3];
     assert_success(ost_orthotropic_eigenvalues(ctx, &constants, eigenvalues));
@@ -183,7 +174,6 @@ static void scale_meets_the_boundary(void **state)
 /* Isotropic and family alike: 0.45 is not above 0.45, but the next number a person would write is. */
 static void rounding_decides_no_limit(void **state)
 {
-    (void)state;
     const double e[4][3] = {{1, 1, 1}, {2.1e11, 2.1e11, 2.1e11}, {1, 1000, 1}, {3, 0.7, 1e9}};
     for (int k = 0; k < 4; k++)
         for (int i = 1; i < 500; i++) {
@@ -200,7 +190,6 @@ static void rounding_decides_no_limit(void **state)
 
 static void auxetic_materials_are_welcome(void **state)
 {
-    (void)state;
     const double e[3] = {1, 100, 1e4};
     const OstOrthotropic constants = ost_orthotropic_family(e, -0.7, OST_SHEAR_GEOMETRIC);
     OstMaterial material;
@@ -213,7 +202,6 @@ static void auxetic_materials_are_welcome(void **state)
 
 static void naive_boundary_lies_where_equation_16_says(void **state)
 {
-    (void)state;
     enum { COUNT = 36 };
     const double nus[4] = {0.1, 0.3, 0.49, -0.5};
     for (int k = 0; k < 4; k++) {

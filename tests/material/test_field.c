@@ -65,7 +65,6 @@ static void assert_tet_is(const OstMaterialField *field, OstLocal tet, const Ost
 
 static void an_isotropic_body_carries_no_axes(void **state)
 {
-    (void)state;
     const OstMaterial materials[2] = {isotropic(), isotropic()};
     const OstAxesSpec specs[2] = {cylindrical, fixed};
     const Booked before = booked();
@@ -87,7 +86,6 @@ static void an_isotropic_body_carries_no_axes(void **state)
 
 static void fixed_axes_cost_nothing_per_tet(void **state)
 {
-    (void)state;
     const OstMaterial material = orthotropic();
     const Booked before = booked();
     const size_t bytes_before = ost_ledger_bytes(ctx);
@@ -111,7 +109,6 @@ static void fixed_axes_cost_nothing_per_tet(void **state)
 /* Kept as quaternions, whichever of its four numbers is the largest; half turns have none but one. */
 static void axes_survive_being_kept(void **state)
 {
-    (void)state;
     static const double axis[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 2, 0.1}, {0, -3, 2}};
     for (size_t a = 0; a < sizeof axis / sizeof axis[0]; a++)
         for (int step = 0; step <= 12; step++) {
@@ -130,7 +127,6 @@ static void axes_survive_being_kept(void **state)
 
 static void varying_axes_are_kept_by_tet(void **state)
 {
-    (void)state;
     const OstMaterial material = orthotropic();
     OstMaterialField *field = NULL;
     assert_success(
@@ -149,7 +145,6 @@ static void varying_axes_are_kept_by_tet(void **state)
 
 static void each_region_keeps_its_own_ways(void **state)
 {
-    (void)state;
     const OstMaterial materials[4] = {orthotropic(), isotropic(), orthotropic(), orthotropic()};
     const OstAxesSpec specs[4] = {cylindrical, cylindrical, fixed, {.kind = OST_AXES_NONE}};
     const int32_t regions[TETS] = {0, 1, 2, 3, 0, 2};
@@ -168,7 +163,6 @@ static void each_region_keeps_its_own_ways(void **state)
 
 static void a_curve_is_followed(void **state)
 {
-    (void)state;
     double points[9] = {0, 0, -1, 0, 0, 3, 1, 0, 9};
     double same[9] = {0, 0, -1, 0, 0, 3, 1, 0, 9};
     const OstAxesSpec spec = {
@@ -191,7 +185,6 @@ static void a_curve_is_followed(void **state)
 
 static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
 {
-    (void)state;
     const OstMaterial material = orthotropic();
     const OstAxesSpec spec = {.kind = OST_AXES_CELLS};
     double given[9 * TETS];
@@ -218,7 +211,6 @@ static void given_axes_are_taken_and_bad_ones_refused_by_tet(void **state)
 
 static void bad_axes_regions_and_points_are_refused(void **state)
 {
-    (void)state;
     const OstMaterial material = orthotropic(), plain = isotropic();
     OstAxesSpec spec = {.kind = OST_AXES_FIXED, .fixed = {1, 0, 0, 0, 1, 0, 0, 0, -1}};
     OstMaterialField *field = NULL;
@@ -237,7 +229,6 @@ static void bad_axes_regions_and_points_are_refused(void **state)
 
 static void a_rank_without_tets_has_a_field_too(void **state)
 {
-    (void)state;
     const OstMaterial material = orthotropic();
     const OstAxesSpec spec = {.kind = OST_AXES_CELLS};
     OstMaterialField *field = NULL;
@@ -248,7 +239,6 @@ static void a_rank_without_tets_has_a_field_too(void **state)
 
 static void a_formula_gives_axes_at_any_point(void **state)
 {
-    (void)state;
     const OstMaterial materials[2] = {orthotropic(), orthotropic()};
     const OstAxesSpec specs[2] = {cylindrical, fixed};
     const double point[3] = {0.3, -0.4, 2.0};
@@ -289,7 +279,6 @@ static void assert_splits(const OstMaterial *material, const double m[3], double
 
 static void the_stiff_mode_of_nearly_incompressible_regions_is_found(void **state)
 {
-    (void)state;
     const double e[3] = {1, 10, 100};
     const double nu[3] = {0.3, 0.4999, 0.47};
     OstMaterial materials[3];
@@ -325,7 +314,6 @@ static void the_stiff_mode_of_nearly_incompressible_regions_is_found(void **stat
  * right angles to the mode, C of the family is E^(1/2) w / (1 + nu), and along the mode it is that of the limit. */
 static void the_rest_keeps_its_digits_next_to_incompressible(void **state)
 {
-    (void)state;
     const double e[3] = {1, 10, 100}, nu = 0.5 - 1e-10;
     const double shape[3][3] = {{1, 1, 1}, {1, -1, 0}, {1, 1, -2}};
     const double expected[3] = {1.0 / (1.0 - 2.0 * 0.45), 1.0 / (1.0 + nu), 1.0 / (1.0 + nu)};
@@ -353,7 +341,6 @@ static void the_rest_keeps_its_digits_next_to_incompressible(void **state)
 
 static void two_stiff_modes_are_left_alone(void **state)
 {
-    (void)state;
     const OstOrthotropic constants = ost_orthotropic_isotropic(5.0, -0.97); /* 1 + nu twice */
     OstMaterial material;
     OstMaterialField *field = NULL;

@@ -12,7 +12,6 @@ static const OstStrength pine = {.known = 1,
 /* Tension and compression alone fail at their strengths by every criterion; Hill's takes the smaller one of an axis. */
 static void single_stresses_fail_at_their_strength(void **state)
 {
-    (void)state;
     for (int i = 0; i < 3; i++) {
         double pull[6] = {0.0}, push[6] = {0.0}, shear[6] = {0.0};
         pull[i] = 0.1 * pine.tension[i];
@@ -30,7 +29,6 @@ static void single_stresses_fail_at_their_strength(void **state)
 /* F(f s) = 1, with F written out once more. */
 static void tsai_wu_is_the_root_of_its_form(void **state)
 {
-    (void)state;
     const double stress[6] = {-20.0, 1.2, -2.5, 3.0, 0.7, -2.0};
     const double f = ost_load_factor(&pine, OST_TSAI_WU, stress);
     double s[6];
@@ -47,7 +45,6 @@ static void tsai_wu_is_the_root_of_its_form(void **state)
 /* Equal strengths everywhere, and shear of 1/sqrt(3): Hill's, and Tsai and Wu's, are von Mises's. */
 static void an_isotropic_material_fails_by_von_mises(void **state)
 {
-    (void)state;
     const double y = 250.0, s[6] = {100.0, -30.0, 55.0, 20.0, -40.0, 10.0};
     const OstStrength steel = {.known = 1,
                                .tension = {y, y, y},
@@ -65,7 +62,6 @@ static void an_isotropic_material_fails_by_von_mises(void **state)
 
 static void what_cannot_fail_has_the_largest_factor(void **state)
 {
-    (void)state;
     const double none[6] = {0.0};
     const OstStrength even = {.known = 1,
                               .tension = {1.0, 1.0, 1.0},
@@ -82,7 +78,6 @@ static void what_cannot_fail_has_the_largest_factor(void **state)
 
 static void open_criteria_are_known(void **state)
 {
-    (void)state;
     OstStrength strength = pine;
     assert_false(ost_criterion_is_open(&strength, OST_TSAI_WU));
     assert_false(ost_criterion_is_open(&strength, OST_HILL));

@@ -33,7 +33,6 @@ static void make_block(BlockArrays *block)
 
 static void the_mesh_is_that_of_the_arrays_and_they_are_copied(void **state)
 {
-    (void)state;
     BlockArrays block;
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
@@ -89,7 +88,6 @@ static OstMeshArrays two_tets_arrays(void)
 
 static void rank_0_may_bring_it_all(void **state)
 {
-    (void)state;
     const OstMeshArrays arrays = two_tets_arrays();
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
@@ -108,7 +106,6 @@ static void rank_0_may_bring_it_all(void **state)
 
 static void a_mesh_can_be_read_by_functions_alone(void **state)
 {
-    (void)state;
     const OstMeshArrays arrays = two_tets_arrays();
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
@@ -156,7 +153,6 @@ static void refuses(const OstMeshArrays *arrays, const char *text)
 
 static void what_does_not_fit_is_named(void **state)
 {
-    (void)state;
     OstMeshArrays arrays = two_tets_arrays();
     arrays.nodes_per_tet = 8;
     refuses(&arrays, "nodes_per_tet is 8, expected 4 or 10");
@@ -183,7 +179,6 @@ static void what_does_not_fit_is_named(void **state)
 
 static void boundaries_that_do_not_fit_are_named(void **state)
 {
-    (void)state;
     OstMeshArrays arrays = two_tets_arrays();
     OstBoundaryArrays boundaries[2] = {{"face", 2, 1, face}, {"face", 0, 1, corner}};
     arrays.boundary_count = 2;
@@ -201,7 +196,6 @@ static void boundaries_that_do_not_fit_are_named(void **state)
 
 static void ranks_must_list_the_same_names(void **state)
 {
-    (void)state;
     if (ost_size(ctx) == 1)
         return;
     const int other = ost_rank(ctx) == 1;

@@ -97,7 +97,6 @@ static OstMesh *make_curved_tube(OstContext *on)
 /* A hanging node would leave faces with one tet inside the body, and show in the area of the surface. */
 static void ten_generations_are_the_same_on_any_number_of_ranks(void **state)
 {
-    (void)state;
     static const double corner[3] = {0.0, 0.7, 3.0};
     const char *names[] = {"xmin", "ymax", "zmin", "zmax"};
     const double areas[] = {6.0, 3.0, 2.0, 2.0};
@@ -120,7 +119,6 @@ static void ten_generations_are_the_same_on_any_number_of_ranks(void **state)
 
 static void tubes_are_bisected_onto_their_circles(void **state)
 {
-    (void)state;
     static const double point[3] = {2.0, 0.0, 2.0}; /* on the outer side, halfway up */
     const OstShapeSurface surface = ost_shape_surface_tube(&short_tube);
     for (int curved = 0; curved < 2; curved++) {
@@ -146,7 +144,6 @@ static void tubes_are_bisected_onto_their_circles(void **state)
 /* Without a shape, curved tets fill the same space as before, to rounding. */
 static void curved_tets_keep_their_space(void **state)
 {
-    (void)state;
     static const double point[3] = {2.0, 0.0, 2.0};
     Twins twins = {0};
     start_twins(&twins, make_curved_tube);
@@ -178,7 +175,6 @@ static OstMesh *make_crooked_block(OstContext *on)
 
 static void shapes_of_an_irregular_mesh_stay_bounded(void **state)
 {
-    (void)state;
     static const double inside[3] = {0.3, 0.4, 0.55};
     Twins twins = {0};
     double vector[3];
@@ -198,7 +194,6 @@ static void shapes_of_an_irregular_mesh_stay_bounded(void **state)
 
 static void regions_axes_points_and_curves_are_inherited(void **state)
 {
-    (void)state;
     static const double point[3] = {0.0, 0.0, 0.0};
     OstMeshChunk *chunk = marked_column();
     assert_success(OST_NEW(ctx, &chunk->tet_axes, 9 * (size_t)chunk->tet_count));
@@ -243,7 +238,6 @@ static double curve_at(const double x[3], int quadratic)
 /* What a tet can hold is carried without error. */
 static void fields_are_carried(void **state)
 {
-    (void)state;
     static const double point[3] = {0.5, 1.0, 0.0};
     for (int quadratic = 0; quadratic < 2; quadratic++) {
         OstMesh *mesh = make_block(ctx), *before = NULL;
@@ -280,7 +274,6 @@ static void fields_are_carried(void **state)
 /* A tet that is cut n times becomes tets of 2^-n of its volume, which know it by its label. */
 static void tets_are_cut_as_often_as_asked_and_know_their_parents(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_block(ctx), *fine = NULL;
     OstBisection *bisection = NULL;
     unsigned char *times = calloc((size_t)mesh->owned_tets + 1, 1);
@@ -318,7 +311,6 @@ static void tets_are_cut_as_often_as_asked_and_know_their_parents(void **state)
 
 static void nothing_marked_leaves_the_mesh_as_it_is(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_block(ctx), *fine = NULL;
     OstBisection *bisection = NULL;
     unsigned char *marked = calloc((size_t)mesh->owned_tets + 1, 1);
@@ -334,7 +326,6 @@ static void nothing_marked_leaves_the_mesh_as_it_is(void **state)
 
 static void steps_out_of_order_are_refused(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_block(ctx);
     OstBisection *bisection = NULL;
     assert_success(ost_bisection_create(mesh, &bisection));

@@ -36,7 +36,6 @@ static void refuses(const Cube *cube, const char *text)
 
 static void a_sound_cube_passes(void **state)
 {
-    (void)state;
     const Cube cube = sound_cube();
     OstMeshChunk *chunk = hand_chunk(4, cube.nodes, cube.x, cube.count, cube.tets);
     OstMesh *mesh = NULL;
@@ -47,7 +46,6 @@ static void a_sound_cube_passes(void **state)
 
 static void inverted_tets_are_named_lowest_first(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     for (int t = 2; t < 5; t++) {
         const OstGlobal third = cube.tets[4 * t + 2];
@@ -60,7 +58,6 @@ static void inverted_tets_are_named_lowest_first(void **state)
 
 static void flat_tets_are_named(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     const OstGlobal flat[4] = {0, 1, 2, 3};
     memcpy(cube.tets + 24, flat, sizeof flat);
@@ -74,7 +71,6 @@ static void flat_tets_are_named(void **state)
 
 static void a_sliver_of_quality_1e_9_is_no_flat_tet(void **state)
 {
-    (void)state;
     const OstGlobal tet[4] = {0, 1, 2, 3};
     for (double scale = 1e-6; scale < 1e7; scale *= 1e6) {
         const double x[12] = {0, 0, 0, scale, 0, 0, 0, scale, 0, 0, 0, 1e-9 * scale};
@@ -89,7 +85,6 @@ static void a_sliver_of_quality_1e_9_is_no_flat_tet(void **state)
 
 static void coordinates_must_be_finite(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     cube.x[3 * 5 + 1] = NAN;
     refuses(&cube, "vertex 6 has coordinate nan");
@@ -100,7 +95,6 @@ static void coordinates_must_be_finite(void **state)
 
 static void vertices_without_tet_are_listed(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     cube.nodes = 9;
     refuses(&cube, "1 vertex is used by no tet: 9; remove it");
@@ -117,7 +111,6 @@ static void vertices_without_tet_are_listed(void **state)
 
 static void numbers_must_fit_the_mesh(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     cube.tets[9] = 8;
     refuses(&cube, "tet 3 uses node number 8 (counted from 0), but the mesh has 8 nodes");
@@ -160,7 +153,6 @@ static void hear_once(void *heard, const char *text)
 
 static void tets_that_fold_are_made_straight_if_asked(void **state)
 {
-    (void)state;
     OstMeshChunk *cube = bent_cube();
     OstMesh *mesh = NULL;
     int warnings = 0;
@@ -192,7 +184,6 @@ static void tets_that_fold_are_made_straight_if_asked(void **state)
 
 static void labels_of_the_file_are_used(void **state)
 {
-    (void)state;
     Cube cube = sound_cube();
     cube.x[3 * 5 + 1] = NAN;
     OstMeshChunk *chunk = hand_chunk(4, cube.nodes, cube.x, cube.count, cube.tets);
@@ -205,7 +196,6 @@ static void labels_of_the_file_are_used(void **state)
 
 static void a_boundary_belongs_to_the_body(void **state)
 {
-    (void)state;
     const Cube cube = sound_cube();
     const OstGlobal loose[3] = {1, 2, 4}; /* nodes of the cube, but of no common tet */
     OstMeshChunk *chunk = hand_chunk(4, cube.nodes, cube.x, cube.count, cube.tets);
@@ -216,7 +206,6 @@ static void a_boundary_belongs_to_the_body(void **state)
 
 static void fewer_nodes_than_ranks_are_refused(void **state)
 {
-    (void)state;
     const Slab slab = {.ctx = ctx, .global_nodes = ost_size(ctx) - 1};
     char text[64];
     snprintf(text, sizeof text, "mesh of %d nodes is too small for %d ranks", ost_size(ctx) - 1, ost_size(ctx));
@@ -226,7 +215,6 @@ static void fewer_nodes_than_ranks_are_refused(void **state)
 
 static void limits_of_metis_are_told_before_it_is_called(void **state)
 {
-    (void)state;
     assert_success(ost_graph_check_limits(ctx, "graph", 1000, INT32_MAX));
     if (IDXTYPEWIDTH == 32) {
         assert_failure(ost_graph_check_limits(ctx, "nodal graph", 1000, (OstGlobal)INT32_MAX + 1), OST_LIMIT_EXCEEDED,
@@ -237,7 +225,6 @@ static void limits_of_metis_are_told_before_it_is_called(void **state)
 
 static void large_weights_are_scaled_to_what_metis_sums(void **state)
 {
-    (void)state;
     idx_t weights[4] = {1, INT32_MAX, 0, INT32_MAX / 2};
     ost_graph_shrink_weights(4, weights);
     OstGlobal sum = 0;

@@ -23,7 +23,6 @@ static void check_parts(OstMesh *mesh, int expected)
 
 static void a_tube_is_one_part(void **state)
 {
-    (void)state;
     const OstTubeShape tube = {1, {0.0, 0.0, 0.0}, 4.0, {0.9, 1.5}, 12, 2, 8};
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
@@ -43,7 +42,6 @@ static void a_tube_is_one_part(void **state)
 
 static void cells_that_touch_in_an_edge_or_a_vertex_are_parts_of_their_own(void **state)
 {
-    (void)state;
     /* The first and the third share a face, the second touches the first along an edge, the fourth is apart. */
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 0, 1}, 0}, {{5, 5, 5}, 0}};
     OstMesh *mesh = lattice_mesh(4, cell, 1.0);
@@ -67,7 +65,6 @@ static void cells_that_touch_in_an_edge_or_a_vertex_are_parts_of_their_own(void 
 
 static void parts_stay_what_they_are_when_tets_are_cut_or_become_quadratic(void **state)
 {
-    (void)state;
     const Cell cell[] = {{{0, 0, 0}, 0}, {{1, 1, 0}, 0}, {{0, 0, 1}, 0}, {{5, 5, 5}, 0}};
     OstMesh *mesh = lattice_mesh(4, cell, 1.0);
     OstMesh *fine = NULL, *quadratic = NULL;
@@ -83,7 +80,6 @@ static void parts_stay_what_they_are_when_tets_are_cut_or_become_quadratic(void 
 /* A checkerboard: every cell touches its neighbours in edges alone. */
 static void as_many_parts_as_cells_are_told_apart(void **state)
 {
-    (void)state;
     Cell cell[LATTICE_CELLS];
     int cells = 0;
     for (int i = 0; i < 4; i++)
@@ -98,7 +94,6 @@ static void as_many_parts_as_cells_are_told_apart(void **state)
 /* A tet, a neighbour, and the tet again with its vertices in another order; and two tets on one side of a face. */
 static void doubled_and_overlapping_tets_are_refused_by_label(void **state)
 {
-    (void)state;
     const double x[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     const OstGlobal doubled[] = {1, 2, 3, 4, 0, 1, 2, 3, 1, 2, 0, 3};
     const OstGlobal same_side[] = {0, 1, 2, 3, 0, 1, 2, 4};

@@ -213,7 +213,6 @@ static void assert_compact(const OstMesh *mesh)
 
 static void the_tube_made_by_all_is_cut_and_complete(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_and_check(tube_chunk());
     assert_balanced(mesh);
     assert_compact(mesh);
@@ -223,7 +222,6 @@ static void the_tube_made_by_all_is_cut_and_complete(void **state)
 
 static void the_tube_read_by_rank_0_is_cut_and_complete(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_and_check(on_rank_0(tube_chunk()));
     assert_balanced(mesh);
     assert_compact(mesh);
@@ -233,7 +231,6 @@ static void the_tube_read_by_rank_0_is_cut_and_complete(void **state)
 
 static void boundaries_and_surface_keep_their_areas(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_and_check(tube_chunk());
     const double ring = tube_volume(&paper_tube) / 10.0;
     const double around = 2.0 * 60.0 * sin(M_PI / 60.0) * 10.0; /* wall of a 60-gon prism of radius 1 */
@@ -258,7 +255,6 @@ static void boundaries_and_surface_keep_their_areas(void **state)
 
 static void blocks_of_all_sizes_are_complete(void **state)
 {
-    (void)state;
     static const OstLocal divisions[][3] = {{1, 1, 1}, {3, 1, 1}, {1, 2, 13}, {7, 6, 5}, {40, 2, 3}};
     for (size_t s = 0; s < sizeof divisions / sizeof *divisions; s++) {
         OstMeshChunk *chunk = NULL;
@@ -275,7 +271,6 @@ static void blocks_of_all_sizes_are_complete(void **state)
 
 static void quadratic_tets_come_with_all_their_nodes(void **state)
 {
-    (void)state;
     OstMesh *mesh = distribute_and_check(quadratic_cube(3));
     OstSurface *surface = NULL;
     double vector[3];
@@ -297,7 +292,6 @@ static void quadratic_tets_come_with_all_their_nodes(void **state)
 
 static void regions_and_axes_travel_with_their_tets(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = on_rank_0(tube_chunk());
     if (ost_rank(ctx) == 0) { /* the other ranks of a serial reader have no axes at all */
         assert_success(OST_NEW(ctx, &chunk->tet_axes, 9 * (size_t)chunk->tet_count));
@@ -322,7 +316,6 @@ static void regions_and_axes_travel_with_their_tets(void **state)
 
 static void points_stay_with_their_owner(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = quadratic_cube(2);
     OstGlobal points[27];
     OstGlobal edge[3] = {0, 1, 0};
@@ -353,7 +346,6 @@ static void points_stay_with_their_owner(void **state)
 /* Tets in another order than their nodes, as in a file that another program wrote. */
 static void shuffled_tets_are_cut_as_well(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = tube_chunk();
     Whole whole = gather_whole(chunk);
     for (OstLocal t = 0; t < chunk->tet_count; t++) { /* 7 and 129,600 have no common factor */
@@ -377,7 +369,6 @@ static int sum_of_ghosts(const OstMesh *mesh)
 /* Neighbouring nodes held by different ranks, for the most part. */
 static void scattered_nodes_are_cut_as_well(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = on_rank_0(tube_chunk());
     OstMesh *cut_whole = NULL;
     assert_success(ost_mesh_distribute(ctx, &chunk, &cut_whole));
@@ -408,7 +399,6 @@ static void scattered_nodes_are_cut_as_well(void **state)
 /* As a program may hand it over in arrays: the nodes are all rank 0's, the tets are not. */
 static void nodes_apart_from_their_tets_are_cut_as_well(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = tube_chunk();
     Whole whole = gather_whole(chunk);
     const OstLocal nodes = ost_rank(ctx) == 0 ? (OstLocal)whole.nodes : 0;
@@ -457,7 +447,6 @@ static int cut_along_x(const OstMesh *mesh)
  * 2 × 25 × 9 times as many other edges, but no stiff ones; METIS sees clusters of nodes, and may cut a few. */
 static void borders_run_along_what_is_stiff(void **state)
 {
-    (void)state;
     static const OstBlockShape bar = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {24, 8, 8}};
     const OstTetMetric metric = {.fill = metric_along_x};
     int cut[2];
@@ -474,7 +463,6 @@ static void borders_run_along_what_is_stiff(void **state)
 
 static void a_mesh_is_cut_the_same_way_every_time(void **state)
 {
-    (void)state;
     OstMesh *first = distribute_and_check(tube_chunk());
     OstMesh *second = distribute_and_check(tube_chunk());
     assert_int_equal(first->node_count, second->node_count);
@@ -485,7 +473,6 @@ static void a_mesh_is_cut_the_same_way_every_time(void **state)
 
 static void a_doubled_tet_is_named_by_the_surface(void **state)
 {
-    (void)state;
     const double x[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     const OstGlobal doubled[] = {0, 1, 2, 3, 0, 1, 2, 3, 1, 2, 3, 4};
     OstMeshChunk *chunk = hand_chunk(4, 5, x, 3, doubled);
@@ -499,7 +486,6 @@ static void a_doubled_tet_is_named_by_the_surface(void **state)
 
 static void time_is_booked_to_mesh_and_partition(void **state)
 {
-    (void)state;
     const long meshes = ost_ledger_entry(ctx, OST_LEDGER_MESH).entries;
     const long partitions = ost_ledger_entry(ctx, OST_LEDGER_PARTITION).entries;
     OstMeshChunk *chunk = tube_chunk();

@@ -24,7 +24,6 @@ static const Cell side_by_side[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 1}};
 
 static void coincident_vertices_are_counted_with_a_tolerance_that_joins_them(void **state)
 {
-    (void)state;
     for (double scale = 1e-6; scale < 1e7; scale *= 1e6) {
         OstMesh *mesh = lattice_mesh(2, side_by_side, scale);
         OstGlobal count = 0;
@@ -38,7 +37,6 @@ static void coincident_vertices_are_counted_with_a_tolerance_that_joins_them(voi
 
 static void merging_joins_two_bodies_along_their_common_face(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = lattice_chunk(2, side_by_side, 1.0);
     OstGlobal merged = 0;
     OstMesh *mesh = NULL;
@@ -88,7 +86,6 @@ static OstMeshChunk *soup(void)
 
 static void a_soup_of_tets_becomes_one_body_wherever_its_vertices_are(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = soup();
     OstGlobal merged = 0;
     OstMesh *mesh = NULL;
@@ -103,7 +100,6 @@ static void a_soup_of_tets_becomes_one_body_wherever_its_vertices_are(void **sta
 
 static void unmerged_the_soup_is_as_many_parts_as_tets(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = soup();
     OstMesh *mesh = NULL;
     OstGlobal count = 0;
@@ -117,7 +113,6 @@ static void unmerged_the_soup_is_as_many_parts_as_tets(void **state)
 
 static void a_distance_that_would_collapse_a_tet_is_refused(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = lattice_chunk(2, side_by_side, 1.0);
     OstGlobal merged = 0;
     assert_failure(ost_chunk_merge(chunk, 1.0, &merged), OST_INVALID_INPUT,
@@ -128,7 +123,6 @@ static void a_distance_that_would_collapse_a_tet_is_refused(void **state)
 /* Three cells whose vertices at x = 1 lie 0, 0.4 and 0.8 along y: ends of a chain of 0.5 are not joined. */
 static void a_chain_of_near_vertices_is_refused(void **state)
 {
-    (void)state;
     static const double x[] = {
         0, 0, 0, 1, 0,   0, 0, 1, 0, 0, 0, 1,  /* a tet */
         3, 0, 0, 1, 0.4, 0, 3, 1, 0, 3, 0, 1,  /* another; its second vertex is near the first's */

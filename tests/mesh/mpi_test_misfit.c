@@ -35,7 +35,6 @@ static OstMeshChunk *hanging(double gap, double height)
 
 static void a_vertex_in_the_middle_of_an_edge_is_found_on_any_number_of_ranks(void **state)
 {
-    (void)state;
     const OstMisfits found = misfits_of(hanging(0.0, 1.0), 0);
     assert_int_equal(found.faces, 3);
     assert_int_equal(found.cracked, 0);
@@ -49,7 +48,6 @@ static void a_vertex_in_the_middle_of_an_edge_is_found_on_any_number_of_ranks(vo
 
 static void tied_vertices_gaps_and_thin_plates_are_none(void **state)
 {
-    (void)state;
     assert_int_equal(misfits_of(hanging(0.0, 1.0), 1).faces, 0);
     assert_int_equal(misfits_of(hanging(0.005, 1.0), 0).faces, 0);
     const OstBlockShape plate = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1e-5}, {4, 4, 1}};
@@ -61,7 +59,6 @@ static void tied_vertices_gaps_and_thin_plates_are_none(void **state)
 /* Two cubes with a face in common, whose diagonal there is one in the first and the other in the second. */
 static void triangles_across_both_diagonals_are_found_where_the_quadrilateral_is_not_plane_too(void **state)
 {
-    (void)state;
     for (int warped = 0; warped < 2; warped++) {
         const Cell cells[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}};
         OstMeshChunk *chunk = lattice_chunk(2, cells, 1.0);
@@ -91,7 +88,6 @@ static void triangles_across_both_diagonals_are_found_where_the_quadrilateral_is
 /* With vertices of their own at the same places. */
 static void the_sides_of_a_crack_fit(void **state)
 {
-    (void)state;
     const Cell cells[] = {{{0, 0, 0}, 0}, {{1, 0, 0}, 1}};
     const OstMisfits found = misfits_of(lattice_chunk(2, cells, 1e6), 0);
     assert_int_equal(found.faces, 0);

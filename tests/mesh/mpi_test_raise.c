@@ -19,7 +19,6 @@ static OstMesh *raise_and_check(const OstMesh *linear, const OstShapeSurface *sh
 /* n × n × n Kuhn cells have a node at each vertex, edge middle, face middle and cell middle: (2n + 1)³. */
 static void a_raised_block_has_the_nodes_of_one_twice_as_fine(void **state)
 {
-    (void)state;
     for (OstLocal n = 1; n < 6; n += 2) {
         OstMesh *linear = mesh_of_block(ctx, 1.0, 1.0, 1.0, n, n, n);
         OstMesh *quadratic = raise_and_check(linear, NULL);
@@ -47,7 +46,6 @@ static void a_raised_block_has_the_nodes_of_one_twice_as_fine(void **state)
 
 static void middles_lie_between_their_vertices(void **state)
 {
-    (void)state;
     OstMesh *linear = mesh_of_tube(ctx, &short_tube);
     OstMesh *quadratic = raise_and_check(linear, NULL);
     for (OstLocal t = 0; t < quadratic->tet_count; t++)
@@ -66,7 +64,6 @@ static void middles_lie_between_their_vertices(void **state)
 
 static void vertices_and_tets_keep_what_they_had(void **state)
 {
-    (void)state;
     OstMesh *linear = mesh_of_tube(ctx, &short_tube);
     assert_success(OST_NEW(ctx, &linear->tet_axes, 9 * (size_t)linear->tet_count));
     for (OstLocal t = 0; t < linear->tet_count; t++)
@@ -89,7 +86,6 @@ static void vertices_and_tets_keep_what_they_had(void **state)
 
 static void the_same_on_any_number_of_ranks(void **state)
 {
-    (void)state;
     OstContext *alone = NULL;
     assert_int_equal(ost_context_create(MPI_COMM_SELF, &alone), OST_SUCCESS);
     const OstShapeSurface surface = ost_shape_surface_tube(&short_tube);
@@ -116,7 +112,6 @@ static double radius_of(const OstMesh *mesh, OstGlobal node)
 
 static void curved_tubes_have_their_nodes_on_circles(void **state)
 {
-    (void)state;
     const OstShapeSurface surface = ost_shape_surface_tube(&short_tube);
     OstMesh *linear = mesh_of_tube(ctx, &short_tube);
     OstMesh *quadratic = raise_and_check(linear, &surface);
@@ -138,7 +133,6 @@ static void curved_tubes_have_their_nodes_on_circles(void **state)
 /* Quadratic edges meet circles to fourth order in area: halving h leaves a sixteenth of the error. */
 static void the_volume_of_curved_tubes_converges_with_order_four(void **state)
 {
-    (void)state;
     const double exact = M_PI * (1.5 * 1.5 - 0.9 * 0.9) * 2.0;
     double error[2];
     for (int level = 0; level < 2; level++) {
@@ -159,7 +153,6 @@ static void the_volume_of_curved_tubes_converges_with_order_four(void **state)
 
 static void boundaries_are_raised_with_their_faces(void **state)
 {
-    (void)state;
     OstMesh *linear = mesh_of_block(ctx, 1.0, 2.0, 3.0, 3, 2, 4);
     OstMesh *quadratic = raise_and_check(linear, NULL);
     const char *names[] = {"xmin", "ymax", "zmin"};
@@ -184,7 +177,6 @@ static void boundaries_are_raised_with_their_faces(void **state)
 
 static void the_linear_mesh_of_a_raised_one_is_the_one_it_was(void **state)
 {
-    (void)state;
     OstMesh *before = mesh_of_tube(ctx, &short_tube);
     OstMesh *quadratic = raise_and_check(before, NULL);
     OstMesh *after = NULL;
@@ -218,7 +210,6 @@ static void the_linear_mesh_of_a_raised_one_is_the_one_it_was(void **state)
 /* Cut by METIS as a quadratic mesh, a rank can own a mid-edge node without either of its vertices. */
 static void a_quadratic_mesh_read_as_such_has_all_parents_here(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = quadratic_cube(3);
     OstMesh *quadratic = NULL;
     OstMesh *linear = NULL;
@@ -253,7 +244,6 @@ static void a_quadratic_mesh_read_as_such_has_all_parents_here(void **state)
 
 static void points_and_curves_are_raised(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = marked_column();
     OstMesh *linear = NULL;
     OstMesh *skeleton = NULL;
@@ -278,7 +268,6 @@ static void points_and_curves_are_raised(void **state)
 
 static void what_cannot_be_raised_is_refused(void **state)
 {
-    (void)state;
     OstMesh *linear = mesh_of_block(ctx, 1.0, 1.0, 1.0, 2, 2, 2);
     OstMesh *quadratic = NULL;
     OstMesh *none = NULL;
@@ -295,18 +284,11 @@ static void what_cannot_be_raised_is_refused(void **state)
     ost_mesh_destroy(&linear);
 }
 
-/* A tet flat against a sphere: its base bulges through its top. */
 static void a_folded_tet_is_named(void **state)
 {
-    (void)state;
-    const double x[12] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.35, 0.35, 0.35};
-    const OstGlobal tet[4] = {0, 1, 2, 3};
-    const double centre[3] = {0.0, 0.0, 0.0};
-    const OstShapeSurface sphere = ost_shape_surface_sphere(centre);
-    OstMeshChunk *chunk = hand_chunk(4, 4, x, 1, tet);
-    OstMesh *mesh = NULL;
+    OstShapeSurface sphere;
+    OstMesh *mesh = flat_on_sphere(&sphere);
     OstMesh *none = NULL;
-    assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
     assert_failure(ost_mesh_raise(mesh, &sphere, &none), OST_INVALID_INPUT, "tet 1 with curved edges folds over");
     assert_null(none);
     ost_mesh_destroy(&mesh);
@@ -314,7 +296,6 @@ static void a_folded_tet_is_named(void **state)
 
 static void the_middle_of_an_edge_is_the_same_from_both_ends(void **state)
 {
-    (void)state;
     const double origin[3] = {0.3, -0.2, 0.1};
     const OstShapeSurface shapes[3] = {{OST_SURFACE_NONE, {0.0}, {0.0}},
                                        {OST_SURFACE_TUBE, {0.3, -0.2, 0.1}, {1.0, 2.0, -0.5}},
@@ -332,7 +313,6 @@ static void the_middle_of_an_edge_is_the_same_from_both_ends(void **state)
 
 static void across_the_axis_the_middle_is_straight(void **state)
 {
-    (void)state;
     const OstShapeSurface tube = {OST_SURFACE_TUBE, {0.0, 0.0, 0.0}, {0.0, 0.0, 3.0}};
     const double ends[2][2][3] = {{{1.0, 0.0, 2.0}, {-1.0, 0.0, 0.0}}, {{0.0, 0.0, 0.0}, {0.0, 2.0, 1.0}}};
     const double expected[2][3] = {{0.0, 0.0, 1.0}, {0.0, 1.0, 0.5}};

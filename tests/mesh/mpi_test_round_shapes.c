@@ -26,7 +26,6 @@ static void assert_in_plane(const OstMesh *mesh, const char *name, int direction
 
 static void a_sector_has_the_volume_of_its_polygon(void **state)
 {
-    (void)state;
     const double angles[] = {15.0, 90.0, 100.0, 270.0, 359.0};
     for (int i = 0; i < 5; i++) {
         OstSectorShape shape = quarter;
@@ -43,7 +42,6 @@ static void a_sector_has_the_volume_of_its_polygon(void **state)
 
 static void a_quarters_boundaries_lie_in_planes_and_on_circles(void **state)
 {
-    (void)state;
     OstMesh *mesh = mesh_of_sector(ctx, &quarter); /* about z: angles from y to x, as the tube's */
     double vector[3];
     assert_in_plane(mesh, "bottom", 2, 2.0);
@@ -71,7 +69,6 @@ static void a_quarters_boundaries_lie_in_planes_and_on_circles(void **state)
 
 static void impossible_sectors_are_refused(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     OstSectorShape shape = quarter;
     shape.angle = 360.0;
@@ -89,7 +86,6 @@ static void impossible_sectors_are_refused(void **state)
 
 static void an_octant_has_its_counts_and_sides(void **state)
 {
-    (void)state;
     const OstLocal sizes[] = {1, 2, 5};
     double vector[3];
     for (int s = 0; s < 3; s++) {
@@ -120,7 +116,6 @@ static void an_octant_has_its_counts_and_sides(void **state)
 
 static void an_octants_spheres_are_spheres(void **state)
 {
-    (void)state;
     OstMesh *mesh = mesh_of_octant(ctx, &eighth);
     for (int side = 0; side < 2; side++) {
         const OstBoundary *boundary = boundary_named(mesh, side == 0 ? "inner" : "outer");
@@ -134,7 +129,6 @@ static void an_octants_spheres_are_spheres(void **state)
 
 static void octants_converge_to_the_spheres_volume_and_stay_well_shaped(void **state)
 {
-    (void)state;
     const double exact = M_PI / 6.0 * (729.0 - 27.0);
     const double centre[3] = {0.5, -1.0, 2.0};
     const OstShapeSurface sphere = ost_shape_surface_sphere(centre);
@@ -166,7 +160,6 @@ static void octants_converge_to_the_spheres_volume_and_stay_well_shaped(void **s
 
 static void a_curved_octants_volume_converges_with_order_four(void **state)
 {
-    (void)state;
     const double exact = M_PI / 6.0 * (729.0 - 27.0);
     const OstShapeSurface sphere = ost_shape_surface_sphere(eighth.centre);
     double error[2];
@@ -186,7 +179,6 @@ static void a_curved_octants_volume_converges_with_order_four(void **state)
 
 static void sectors_refine_onto_their_circles(void **state)
 {
-    (void)state;
     const double exact = M_PI_4 * (1.5 * 1.5 - 0.9 * 0.9) * 2.0;
     OstTubeShape tube = {2, {0.5, -1.0, 2.0}, 2.0, {0.9, 1.5}, 16, 2, 3};
     const OstShapeSurface surface = ost_shape_surface_tube(&tube);
@@ -204,7 +196,6 @@ static void sectors_refine_onto_their_circles(void **state)
 
 static void impossible_octants_are_refused(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     OstOctantShape shape = eighth;
     shape.around = 0;

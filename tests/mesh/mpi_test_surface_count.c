@@ -16,7 +16,6 @@ static void count(OstMeshChunk *chunk, double *of_chunk, double *of_mesh)
 
 static void a_blocks_faces_are_counted(void **state)
 {
-    (void)state;
     const OstBlockShape shape = {.size = {1, 1, 1}, .divisions = {3, 4, 5}};
     OstMeshChunk *chunk = NULL;
     double of_chunk = 0.0, of_mesh = 0.0;
@@ -28,7 +27,6 @@ static void a_blocks_faces_are_counted(void **state)
 
 static void a_thin_tubes_faces_are_counted(void **state)
 {
-    (void)state;
     const OstTubeShape shape = {.axis = 1, .length = 1, .radii = {0.9, 1}, .around = 9, .radial = 1, .axial = 4};
     OstMeshChunk *chunk = NULL;
     double of_chunk = 0.0, of_mesh = 0.0;
@@ -41,7 +39,6 @@ static void a_thin_tubes_faces_are_counted(void **state)
 /* Of 162,000 tets every second face is compared: the count is off by a few of its standard deviations at most. */
 static void a_large_chunks_faces_are_sampled(void **state)
 {
-    (void)state;
     const OstBlockShape shape = {.size = {1, 1, 1}, .divisions = {30, 30, 30}};
     OstMeshChunk *chunk = NULL;
     double faces = 0.0;

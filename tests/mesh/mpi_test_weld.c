@@ -99,7 +99,6 @@ static double imbalance(const OstMesh *mesh)
 
 static void inclusions_are_whole(void **state)
 {
-    (void)state;
     static const Pattern patterns[] = {{4, 2, 1e6}, {2, 1, 1e6}, {8, 5, 1e6}};
     for (size_t p = 0; p < sizeof patterns / sizeof patterns[0]; p++)
         for (int scattered = 0; scattered < 2; scattered++) {
@@ -113,7 +112,6 @@ static void inclusions_are_whole(void **state)
 /* Every second layer of hexes is flat: no rank has one side of it alone. */
 static void the_two_sides_of_a_flat_layer_are_together(void **state)
 {
-    (void)state;
     const Pattern none = {4, 0, 1.0};
     for (int scattered = 0; scattered < 2; scattered++) {
         OstMeshChunk *chunk = make_chunk(&none, scattered);
@@ -141,7 +139,6 @@ static void the_two_sides_of_a_flat_layer_are_together(void **state)
 /* A body that hangs together, and one whose moduli hardly differ, are cut as if they were of one material. */
 static void other_bodies_are_cut_as_before(void **state)
 {
-    (void)state;
     static const Pattern patterns[] = {{4, 2, 1e3}, {16, 14, 1e6}};
     for (size_t p = 0; p < sizeof patterns / sizeof patterns[0]; p++) {
         OstMeshChunk *chunk = make_chunk(&patterns[p], 0);

@@ -282,4 +282,17 @@ static inline OstMesh *mesh_of_sector(OstContext *on, const OstSectorShape *shap
     return mesh;
 }
 
+/* A tet flat against a sphere: with curved edges its base bulges through its top. */
+static inline OstMesh *flat_on_sphere(OstShapeSurface *sphere)
+{
+    const double x[12] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.35, 0.35, 0.35};
+    const OstGlobal tet[4] = {0, 1, 2, 3};
+    const double centre[3] = {0.0, 0.0, 0.0};
+    OstMeshChunk *chunk = hand_chunk(4, 4, x, 1, tet);
+    OstMesh *mesh = NULL;
+    *sphere = ost_shape_surface_sphere(centre);
+    assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
+    return mesh;
+}
+
 #endif

@@ -24,7 +24,6 @@ static OstMesh *block_mesh(const OstBlockShape *shape)
 
 static void the_papers_tube_has_its_counts(void **state)
 {
-    (void)state;
     OstMesh *mesh = tube_mesh(&paper_tube);
     assert_int_equal(mesh->global_nodes, 25620); /* Li and Barbič, sec. 5 */
     assert_int_equal(mesh->global_tets, 129600);
@@ -39,7 +38,6 @@ static void the_papers_tube_has_its_counts(void **state)
 
 static void tube_nodes_lie_where_their_labels_say(void **state)
 {
-    (void)state;
     OstMesh *mesh = tube_mesh(&paper_tube);
     const OstGlobal labels[] = {1, 7, 8, 420, 421, 12601, 13013, 17777, 25200, 25201, 25620};
     for (size_t s = 0; s < sizeof labels / sizeof *labels; s++) {
@@ -62,7 +60,6 @@ static void tube_nodes_lie_where_their_labels_say(void **state)
  * the second and last vertices swapped where the tet would be inverted. */
 static void a_hex_is_divided_along_its_diagonal(void **state)
 {
-    (void)state;
     static const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     OstMesh *mesh = tube_mesh(&paper_tube);
     const OstLocal cell = (17 * 60 + 59) * 6 + 4; /* k = 17, j = 59 (the next is 0), i = 4 */
@@ -87,7 +84,6 @@ static void a_hex_is_divided_along_its_diagonal(void **state)
 
 static void the_tubes_volume_is_that_of_a_polygonal_ring(void **state)
 {
-    (void)state;
     const OstTubeShape coarsest = {1, {0.0, 0.0, 0.0}, 2.0, {0.5, 1.0}, 3, 1, 1};
     OstMesh *mesh = tube_mesh(&paper_tube);
     assert_close(total_volume(mesh) / tube_volume(&paper_tube), 1.0, 1e-12);
@@ -99,7 +95,6 @@ static void the_tubes_volume_is_that_of_a_polygonal_ring(void **state)
 
 static void tube_boundaries_have_their_areas_and_point_outwards(void **state)
 {
-    (void)state;
     OstMesh *mesh = tube_mesh(&paper_tube);
     const double ring = tube_volume(&paper_tube) / 10.0;
     const double around = 2.0 * 60.0 * sin(M_PI / 60.0) * 10.0; /* wall of a 60-gon prism of radius 1 */
@@ -123,7 +118,6 @@ static void tube_boundaries_have_their_areas_and_point_outwards(void **state)
 
 static void the_tubes_surface_is_closed_and_outward(void **state)
 {
-    (void)state;
     OstMesh *mesh = tube_mesh(&paper_tube);
     OstSurface *surface = NULL;
     assert_success(ost_surface_create(mesh, NULL, &surface));
@@ -144,7 +138,6 @@ static void the_tubes_surface_is_closed_and_outward(void **state)
 
 static void another_axis_turns_the_tube_cyclically(void **state)
 {
-    (void)state;
     OstTubeShape shape = {1, {0.1, 0.2, 0.3}, 2.0, {0.5, 1.0}, 7, 2, 3};
     OstMesh *along_y = tube_mesh(&shape);
     for (int axis = 0; axis < 3; axis++) {
@@ -163,7 +156,6 @@ static void another_axis_turns_the_tube_cyclically(void **state)
 
 static void a_block_has_its_volume_nodes_and_sides(void **state)
 {
-    (void)state;
     const OstBlockShape shape = {{1.0, -2.0, 0.5}, {3.0, 0.7, 1.1}, {4, 3, 2}};
     OstMesh *mesh = block_mesh(&shape);
     assert_int_equal(mesh->node_count, 5 * 4 * 3);
@@ -188,7 +180,6 @@ static void a_block_has_its_volume_nodes_and_sides(void **state)
 
 static void bounds_and_centroids_are_those_of_the_block(void **state)
 {
-    (void)state;
     const OstBlockShape shape = {{1.0, -2.0, 0.5}, {3.0, 0.7, 1.1}, {4, 3, 2}};
     OstMesh *mesh = block_mesh(&shape);
     double low[3];
@@ -211,7 +202,6 @@ static void bounds_and_centroids_are_those_of_the_block(void **state)
 
 static void a_regular_tet_has_quality_1(void **state)
 {
-    (void)state;
     const double x[] = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
     const OstLocal right[] = {0, 1, 2, 3};
     const OstLocal left[] = {0, 1, 3, 2};
@@ -223,7 +213,6 @@ static void a_regular_tet_has_quality_1(void **state)
 
 static void bad_shapes_are_refused(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     OstTubeShape tube = paper_tube;
     tube.radii[0] = 1.5;
@@ -247,7 +236,6 @@ static void bad_shapes_are_refused(void **state)
 
 static void too_many_cells_are_refused_before_anything_is_allocated(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     OstBlockShape block = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {2000, 2000, 2000}};
     assert_failure(ost_chunk_create_block(ctx, &block, &chunk), OST_LIMIT_EXCEEDED, "8000000000 cells on 1 rank are");
@@ -259,7 +247,6 @@ static void too_many_cells_are_refused_before_anything_is_allocated(void **state
 
 static void names_are_listed_in_one_line(void **state)
 {
-    (void)state;
     const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {1, 1, 1}};
     OstMesh *mesh = block_mesh(&shape);
     char text[64];
@@ -278,7 +265,6 @@ static void names_are_listed_in_one_line(void **state)
 /* The authors' surface mesh lists all vertices of the tube, to six digits. Skipped where it is not to be had. */
 static void the_tube_is_the_authors_tube(void **state)
 {
-    (void)state;
     char path[4096];
     const char *source = getenv("ORTHOSTAT_SOURCE");
     snprintf(path, sizeof path, "%s/../shared/data/tube/tube.veg.obj", source ? source : ".");

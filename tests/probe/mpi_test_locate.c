@@ -26,7 +26,6 @@ static OstMesh *make_mesh(int order)
 
 static void points_lie_where_their_coordinates_say(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         OstMesh *mesh = make_mesh(order);
         double low[3], high[3], points[3 * COUNT];
@@ -61,7 +60,6 @@ static void points_lie_where_their_coordinates_say(void **state)
  */
 static void shared_points_and_points_outside(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_mesh(1);
     double low[3], high[3];
     assert_success(ost_mesh_bounds(mesh, low, high));

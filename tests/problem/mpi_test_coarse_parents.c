@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "problem/scene_data.h"
 #include "support.h"
 
 #include "core/memory.h"
-#include "orthostat/orthostat.h"
 #include "orthostat/refine.h"
 #include "problem/coarse_space.h"
 
@@ -51,7 +49,6 @@ static void make_bodies(Body *linear, Body *quadratic)
 /* The weighted sum of the parents' places is the node's own, so every field of uniform slope passes as it is. */
 static void curved_edges_keep_rotations_and_uniform_strains(void **state)
 {
-    (void)state;
     Body linear = {0}, quadratic = {0};
     OstLocal *parents = NULL;
     double *weights = NULL;
@@ -81,8 +78,7 @@ static void curved_edges_keep_rotations_and_uniform_strains(void **state)
     MPI_Allreduce(MPI_IN_PLACE, checked, 2, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     assert_true(checked[0] > 100);
     assert_true(checked[1] > 20);
-    OST_FREE(parents);
-    OST_FREE(weights);
+    OST_FREE(parents, weights);
     destroy(&linear);
     destroy(&quadratic);
 }

@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
-#include "problem/scene_data.h"
 
 #include "core/parallel/reduce.h"
-#include "orthostat/analysis.h"
-#include "orthostat/orthostat.h"
 #include "orthostat/refine.h"
 #include "problem/problem.h"
 
@@ -20,13 +17,7 @@ typedef struct Made {
 static Made make(int order, double moved)
 {
     const OstMaterial material = make_material(ctx, 1);
-    Made made = {.mesh = make_body(ctx)};
-    if (order == 2) {
-        OstMesh *quadratic = NULL;
-        assert_success(ost_mesh_raise(made.mesh, NULL, &quadratic));
-        ost_mesh_destroy(&made.mesh);
-        made.mesh = quadratic;
-    }
+    Made made = {.mesh = make_body_of(order)};
     const OstMesh *mesh = made.mesh;
     made.field = make_field(mesh, &material, AXES_RANDOM_BY_TET);
     double *force = numbers(3 * (size_t)mesh->owned_nodes);
@@ -74,7 +65,6 @@ static void make_displacement(const Made *made, double *v, double *u)
 
 static void force_is_stiffness_times_displacement(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Made made = make(order, 0.0);
         const OstMesh *mesh = made.mesh;
@@ -111,7 +101,6 @@ static void force_is_stiffness_times_displacement(void **state)
 
 static void values_filled_again_are_the_same(void **state)
 {
-    (void)state;
     Made made = make(1, 0.0);
     OstStiffness first, again;
     assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, &first));
@@ -134,7 +123,6 @@ static void values_filled_again_are_the_same(void **state)
 /* Where a nonlinear problem has dropped its map, it makes another. */
 static void a_nonlinear_problem_fills_again_without_its_map(void **state)
 {
-    (void)state;
     Made made = make(1, 0.0);
     OstStiffness stiffness;
     made.problem->linear = 0;
@@ -156,7 +144,6 @@ static void step_along(const OstMesh *mesh, const double *u, double step, const 
  * supports allow. */
 static void large_rotations_derive_from_their_energy(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Made made = make(order, 0.0);
         const OstMesh *mesh = made.mesh;
@@ -211,7 +198,6 @@ static void large_rotations_derive_from_their_energy(void **state)
 /* One problem can be solved linearly first: its matrix follows the formulation, also without its map. */
 static void a_new_formulation_makes_the_stiffness_anew(void **state)
 {
-    (void)state;
     Made made = make(1, 0.0);
     const OstMesh *mesh = made.mesh;
     OstStiffness stiffness;
@@ -239,7 +225,6 @@ static void a_new_formulation_makes_the_stiffness_anew(void **state)
 /* Everything is squeezed to half its length along x, one tet is turned inside out. */
 static void the_worst_tet_is_found(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         Made made = make(order, 0.0);
         const OstMesh *mesh = made.mesh;
@@ -275,7 +260,6 @@ static void the_worst_tet_is_found(void **state)
 
 static void loads_and_prescribed_displacements_scale_with_t(void **state)
 {
-    (void)state;
     Made made = make(1, 0.3);
     const OstMesh *mesh = made.mesh;
     assert_success(ost_problem_stiffness(made.problem, 1.0, NULL, NULL));
@@ -309,7 +293,6 @@ static void loads_and_prescribed_displacements_scale_with_t(void **state)
 
 static void constraints_of_nodes_that_are_not_owned_are_refused(void **state)
 {
-    (void)state;
     Made made = make(1, 0.0);
     OstProblem *problem = NULL;
     const OstNodeConstraint constraint = {.node = made.mesh->owned_nodes, .direction = {1.0, 0.0, 0.0}};

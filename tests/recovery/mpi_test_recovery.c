@@ -38,10 +38,7 @@ static void displace(OstResult *result, void (*at)(const double *, double *))
 static void release(OstResult *result)
 {
     free(result->displacement);
-    OST_FREE(result->strain);
-    OST_FREE(result->stress);
-    OST_FREE(result->strain_energy_density);
-    OST_FREE(result->node_stress);
+    OST_FREE(result->strain, result->stress, result->strain_energy_density, result->node_stress);
 }
 
 static const double slope[9] = {0.1, 0.02, -0.03, 0.05, -0.2, 0.04, 0.07, 0.01, 0.3};
@@ -89,7 +86,6 @@ static OstMaterial nearly_incompressible(void)
 /* Linear, straight quadratic, curved, curved with C split; ghosts too. */
 static void a_uniform_strain_has_one_stress_everywhere(void **state)
 {
-    (void)state;
     const double strain[6] = {slope[0],           slope[4], slope[8], slope[1] + slope[3], slope[5] + slope[7],
                               slope[6] + slope[2]};
     for (int kind = 0; kind < 4; kind++) {
@@ -124,7 +120,6 @@ static void a_uniform_strain_has_one_stress_everywhere(void **state)
 
 static void nodes_of_quadratic_tets_have_the_stress_of_a_quadratic_field(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_mesh(2, 0.0);
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);
@@ -153,7 +148,6 @@ static void nodes_of_quadratic_tets_have_the_stress_of_a_quadratic_field(void **
 /* Of curved tets with C split by axes that differ from tet to tet: the tets' energies are ½ u·Ku. */
 static void the_energies_of_the_tets_add_up(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_mesh(2, 0.03);
     const OstMaterial material = nearly_incompressible();
     OstMaterialField *field = make_field(mesh, &material, AXES_RANDOM_BY_TET);
@@ -183,7 +177,6 @@ static void the_energies_of_the_tets_add_up(void **state)
 /* Two materials side by side under one strain: where they meet, nodes show the first. */
 static void nodes_between_regions_belong_to_the_first(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         OstMesh *mesh = make_mesh(order, 0.0);
         const OstMaterial materials[2] = {make_material(ctx, 0), make_material(ctx, 1)};
@@ -220,7 +213,6 @@ static void nodes_between_regions_belong_to_the_first(void **state)
 
 static void what_is_not_asked_for_is_not_made(void **state)
 {
-    (void)state;
     OstMesh *mesh = make_mesh(1, 0.0);
     const OstMaterial material = make_material(ctx, 1);
     OstMaterialField *field = make_field(mesh, &material, AXES_FIXED);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../assembly/body.h"
 #include "problem/result_data.h"
-#include "problem/scene_data.h"
 
 #include "orthostat/analysis.h"
-#include "orthostat/orthostat.h"
 
 /* Several loads on one hierarchy, and what speaks against solving, in one verdict. */
 
@@ -65,7 +63,6 @@ static OstSolverOptions options_of(OstMethod method)
 
 static void two_loads_on_one_solver_are_two_solves(void **state)
 {
-    (void)state;
     const OstMethod methods[] = {OST_METHOD_METRIC, OST_METHOD_DIRECT};
     Made made = make_body_of_wood();
     const size_t size = 3 * (size_t)made.mesh->owned_nodes;
@@ -107,7 +104,6 @@ static void two_loads_on_one_solver_are_two_solves(void **state)
 /* A load that is refused leaves stiffness and solver to the next. */
 static void a_refused_load_is_followed_by_another(void **state)
 {
-    (void)state;
     Made made = make_body_of_wood();
     const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0), *beyond = make_force(made.mesh, 50, 1e80);
@@ -133,7 +129,6 @@ static void a_refused_load_is_followed_by_another(void **state)
 
 static void a_dry_run_refuses_what_a_solve_refuses(void **state)
 {
-    (void)state;
     Made made = make_body_of_wood();
     const OstSolverOptions options = options_of(OST_METHOD_METRIC);
     double *force = make_force(made.mesh, 50, 1.0);

@@ -2,8 +2,6 @@
 #include "problem/scene_data.h"
 #include "support.h"
 
-#include "orthostat/orthostat.h"
-
 #include <stdlib.h>
 
 /* The paper's tube of 129,600 tets, and how many iterations it may take on one rank to a true residual of 1e-8: what
@@ -41,7 +39,6 @@ static int iterations(const OstCase *c)
 
 static void a_thousand_times_stiffer_in_any_direction(void **state)
 {
-    (void)state;
     static const Bound bounds[] = {{"isotropic", 16}, {"longitudinal", 20}, {"tangential", 35}, {"radial", 25}};
     for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
         OstCase *c = read_tube(bounds[b].scene);
@@ -54,7 +51,6 @@ static void a_thousand_times_stiffer_in_any_direction(void **state)
 /* Around costs as much again as the other two together: on one rank it is enough. */
 static void a_million_times_stiffer_in_any_direction(void **state)
 {
-    (void)state;
     static const char *const scenes[] = {"longitudinal", "radial", "tangential"};
     for (int s = 0; s < (ost_size(ctx) == 1 ? 3 : 2); s++) {
         OstCase *c = read_tube(scenes[s]);

@@ -42,7 +42,6 @@ static void add_core(OstMeshChunk *chunk, const void *cores)
 
 static void contrast_takes_few_iterations(void **state)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int order;

@@ -3,8 +3,6 @@
 #include "core/memory.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
-
 /* A strip along x, clamped at x = 0, that an end moment bends. The moment is made by pressures p and -p on the two
  * halves of the end's face, which follow it. They act on a stiff cap, so that the face stays plane: a face that warps
  * makes a transverse force of the order p² / E out of them, which bends a long strip as much as the moment. The rim of
@@ -66,7 +64,6 @@ static void bend(double angle, OstCase **c, OstScene **scene, OstResult **result
 
 static void a_following_moment_bends_it_into_a_circle(void **state)
 {
-    (void)state;
     static const double pi = 3.14159265358979323846;
     OstCase *c = NULL;
     OstScene *scene = NULL;

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "orthostat/analysis.h"
 #include "orthostat/load_cases.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 #include "support.h"
-
-#include <string.h>
 
 /* Load cases are what each would be alone, on one stiffness for all that share supports. */
 
@@ -95,7 +92,6 @@ static void compare_with_single_runs(const char *body, const char *settings, uns
 
 static void linear_cases_are_their_single_runs(void **state)
 {
-    (void)state;
     compare_with_single_runs(beam,
                              "large_rotation: off\naccuracy: {relative_residual: 1e-11}\nsolver: {method: metric}\n",
                              1U << OST_FIELD_ERROR, 1e-7, 0);
@@ -106,13 +102,11 @@ static void linear_cases_are_their_single_runs(void **state)
 
 static void cases_stop_where_the_mesh_is_worse(void **state)
 {
-    (void)state;
     compare_with_single_runs(beam, "large_rotation: off\nelement: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-2, 0);
 }
 
 static void large_rotations_are_solved_for_where_they_are(void **state)
 {
-    (void)state;
     compare_with_single_runs(beam, "accuracy: {relative_residual: 1e-11}\n", 1U << OST_FIELD_ERROR, 1e-6, 1);
 }
 
@@ -130,7 +124,6 @@ static const char handle[] =
 
 static void a_rigid_face_is_moved_in_each_case_on_one_stiffness(void **state)
 {
-    (void)state;
     compare_with_single_runs(handle, "large_rotation: off\naccuracy: {relative_residual: 1e-11}\n",
                              1U << OST_FIELD_ERROR, 1e-7, 0);
 }
@@ -138,7 +131,6 @@ static void a_rigid_face_is_moved_in_each_case_on_one_stiffness(void **state)
 /* One pattern and one hierarchy for each way the body is held. */
 static void stiffness_is_made_once_for_all_that_share_supports(void **state)
 {
-    (void)state;
     OstCase *c = read_case(beam, "large_rotation: off\n");
     OstScene *scene = NULL;
     OstLoadCases *cases = NULL;
@@ -182,7 +174,6 @@ static const char several[] =
 
 static void ten_cases_are_ten_runs(void **state)
 {
-    (void)state;
     compare_with_single_runs(several, "accuracy: {relative_residual: 1e-10, algebraic_fraction: 0}\n",
                              1U << OST_FIELD_ERROR, 1e-7, 0);
     compare_with_single_runs(several, "element: {order: 2}\n", 1U << OST_FIELD_ERROR, 1e-5, 0);
@@ -226,7 +217,6 @@ static void cases_of_a_company_read_matrices_once_for_all(void **state)
 {
     double together, alone;
     int iterations[2];
-    (void)state;
     count_work(0, "", OST_LEDGER_SOLVE, &together, &iterations[0]);
     count_work(1, "", OST_LEDGER_SOLVE, &alone, &iterations[1]);
     assert_in_range(iterations[0], iterations[1] - 3, iterations[1] + 3);
@@ -238,7 +228,6 @@ static void cases_of_a_company_share_what_reactions_take(void **state)
 {
     double together, alone;
     int iterations[2];
-    (void)state;
     compare_with_single_runs(several, reactions, 1U << OST_FIELD_ERROR, 1e-5, 0);
     count_work(0, reactions, OST_EFFECT_ERROR_ESTIMATE, &together, &iterations[0]);
     count_work(1, reactions, OST_EFFECT_ERROR_ESTIMATE, &alone, &iterations[1]);
@@ -247,7 +236,6 @@ static void cases_of_a_company_share_what_reactions_take(void **state)
 
 static void a_case_that_fails_keeps_no_other_from_being_solved(void **state)
 {
-    (void)state;
     static const char text[] = "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"
                                "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]\n"
                                "constraints: free_body\n"

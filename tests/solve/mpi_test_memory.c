@@ -2,7 +2,6 @@
 #include "../case/case_text.h"
 
 #include "core/parallel/reduce.h"
-#include "problem/scene_data.h"
 #include "run.h"
 
 /* Bytes of our own arrays at the peak of a run from the mesh to the checked answer, over its unknowns; on all ranks. */
@@ -41,13 +40,11 @@ static double shared(double alone)
 
 static void an_unknown_takes_little_memory(void **state)
 {
-    (void)state;
     assert_true(bytes_an_unknown("output: {fields: [displacement]}\n") < shared(860.0));
 }
 
 static void and_not_twice_as_much_where_errors_are_estimated(void **state)
 {
-    (void)state;
     assert_true(bytes_an_unknown("") < shared(1450.0));
 }
 

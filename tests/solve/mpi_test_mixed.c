@@ -3,7 +3,6 @@
 #include "two_layers.h"
 
 #include "core/parallel/reduce.h"
-#include "problem/problem.h"
 #include "recovery/derived.h"
 
 /* The mixed form: quadratic tets whose pressure is an unknown of its own, for nu up to 1/2. */
@@ -24,7 +23,6 @@ static OstStatus try_to_solve(const char *text, Run *run)
 /* The answer is the same on any number of ranks and by either preconditioner, and goes to that of nu = 1/2. */
 static void any_compressibility_and_stiffness_is_solved(void **state)
 {
-    (void)state;
     static const char *const moduli[] = {"1e3", "[1e6, 1e3, 1e3]", "[1e3, 1e6, 1e3]", "[1e3, 1e3, 1e6]"};
     static const char *const ratios[] = {"0.499999999", "0.5"};
     static const double expected[] = {1.91971353358e-3, 2.54215713954e-4, 2.64100565107e-4, 1.43398259212e-4};
@@ -54,7 +52,6 @@ static void any_compressibility_and_stiffness_is_solved(void **state)
  * nothing moves. Stress at nodes and in tets is that. */
 static void an_incompressible_block_in_a_box_bears_the_load(void **state)
 {
-    (void)state;
     Run run;
     double *pressure = NULL;
     assert_success(try_to_solve("mesh: {block: {size: [1, 1, 1], divisions: [3, 2, 2]}}\nelement: {order: 2}\n"
@@ -94,7 +91,6 @@ static void an_incompressible_block_in_a_box_bears_the_load(void **state)
  * volume has no solution. */
 static void a_body_held_all_around_may_not_change_its_volume(void **state)
 {
-    (void)state;
     char text[1024];
     Run run;
     snprintf(text, sizeof text, BOX, "", "0");
@@ -115,7 +111,6 @@ static void a_body_held_all_around_may_not_change_its_volume(void **state)
  * load in every direction, the lower nu / (1 - nu) of it across, and only the lower gives way. */
 static void a_pressure_jumps_where_the_material_does(void **state)
 {
-    (void)state;
     static const double ratios[2] = {0.3, 0.499};
     for (int k = 0; k < 2; k++) {
         const double nu = ratios[k], across = nu / (1.0 - nu);
@@ -147,7 +142,6 @@ static void a_pressure_jumps_where_the_material_does(void **state)
  * then, as it is for linear tets. */
 static void what_has_no_mixed_form_says_so(void **state)
 {
-    (void)state;
     static const struct {
         const char *order, *nu, *rest, *message;
     } refused[] = {{"1", "0.5", "large_rotation: off\n", "element: {order: 2}"},
@@ -187,7 +181,6 @@ static void solve_to(const char *given, double residual, Run *run)
  * answer is held against that of iterations, as far as both state. */
 static void the_stated_error_is_no_less_than_the_true_one(void **state)
 {
-    (void)state;
     static const char *const moduli[] = {"1", "[1000, 1, 1]", "[1, 1, 1000]", "[1e-3, 1, 1]"};
     for (int m = 0; m < 4; m++)
         for (int direct = 0; direct < 2; direct++) {

@@ -80,13 +80,7 @@ static void release(State *state)
 {
     ost_problem_take_pressure(state->problem, NULL);
     ost_problem_destroy(&state->problem);
-    OST_FREE(state->u);
-    OST_FREE(state->du);
-    OST_FREE(state->p);
-    OST_FREE(state->dp);
-    OST_FREE(state->of_tets);
-    OST_FREE(state->force);
-    OST_FREE(state->volume);
+    OST_FREE(state->u, state->du, state->p, state->dp, state->of_tets, state->force, state->volume);
 }
 
 /* Adds weight × both equations of the state, changed by so much of its change. */
@@ -108,8 +102,7 @@ static void add_equations(State *state, double weight, double step, double *forc
         force[i] += weight * state->force[i];
     for (size_t k = 0; k < state->owned; k++)
         volume[k] += weight * state->volume[k];
-    OST_FREE(u);
-    OST_FREE(p);
+    OST_FREE(u, p);
 }
 
 /* The rows of the tangent along the change. */
@@ -132,9 +125,7 @@ static void multiply(const State *state, double *force, double *volume)
     assert_success(ost_coupling_give_way(problem->coupling, state->dp, loose));
     for (size_t k = 0; k < state->owned; k++)
         volume[k] -= loose[k];
-    OST_FREE(wide);
-    OST_FREE(of_pressure);
-    OST_FREE(loose);
+    OST_FREE(wide, of_pressure, loose);
 }
 
 /* The tangent is the derivative of both equations, by central differences; so it is at nu = 1/2, and with axes that
@@ -190,10 +181,7 @@ static void the_tangent_is_the_derivative_of_both_equations(void **unused)
         assert_success(ost_sum(ctx, 4, sums));
         assert_true(sqrt(sums[0] / sums[1]) < 1e-7);
         assert_true(sqrt(sums[2] / sums[3]) < 1e-7);
-        OST_FREE(force);
-        OST_FREE(volume);
-        OST_FREE(tangent);
-        OST_FREE(of_volume);
+        OST_FREE(force, volume, tangent, of_volume);
         release(&state);
         clear(&run);
     }

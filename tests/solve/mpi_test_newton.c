@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
-#include "core/memory.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
 
@@ -105,7 +103,6 @@ static void assert_elastica(int k, int divisions, const char *more, double toler
 
 static void a_cantilever_bends_as_the_elastica(void **state)
 {
-    (void)state;
     for (int k = 0; k < 4; k++)
         assert_elastica(k, 24, "", 0.005);
 }
@@ -114,7 +111,6 @@ static void a_cantilever_bends_as_the_elastica(void **state)
  * moment. */
 static void the_classical_forces_bend_it_too(void **state)
 {
-    (void)state;
     assert_elastica(1, 40, "formulation: classical\n", 0.15);
 }
 
@@ -122,7 +118,6 @@ static void the_classical_forces_bend_it_too(void **state)
  * and 0.80321 of the length (S. Timoshenko and J. Gere, Theory of elastic stability, 1961, table 2-4). */
 static void a_column_is_followed_past_its_buckling(void **state)
 {
-    (void)state;
     const double width = 0.06, height = 0.04, pi = 3.14159265358979;
     const double force = 1.884 * pi * pi / 4.0 * bending_stiffness(width, height);
     Solved solved;
@@ -139,7 +134,6 @@ static void a_column_is_followed_past_its_buckling(void **state)
 /* A straight column is at rest under any load, but beyond Euler's, which is met to 2 %, not stable. */
 static void a_column_without_imperfection_buckles(void **state)
 {
-    (void)state;
     const double width = 0.12, height = 0.08, pi = 3.14159265358979;
     for (int beyond = 0; beyond < 2; beyond++) {
         const double force = (beyond ? 1.02 : 0.98) * pi * pi / 4.0 * bending_stiffness(width, height);
@@ -196,7 +190,6 @@ static void end(Way *way)
 
 static void twice_the_steps_lead_to_the_same_place(void **state)
 {
-    (void)state;
     double tip[3][3];
     const double place[3] = {1.0, 0.01, 0.01};
     for (int k = 0; k < 3; k++) {
@@ -218,7 +211,6 @@ static void twice_the_steps_lead_to_the_same_place(void **state)
 /* An error of the displacement becomes about its square in an iteration. */
 static void convergence_is_quadratic(void **state)
 {
-    (void)state;
     double left[2];
     Way way = {.newton = NULL};
     begin(1.0, 12, &way);
@@ -247,7 +239,6 @@ static void convergence_is_quadratic(void **state)
 /* A state that is not found says how far the load was followed, why not further, and where. */
 static void what_is_given_up_is_described(void **state)
 {
-    (void)state;
     Way way = {.newton = NULL};
     begin(1.0, 4, &way);
     assert_success(ost_newton_advance(way.newton, 0.5, &way.state));
@@ -266,7 +257,6 @@ static void what_is_given_up_is_described(void **state)
 
 static void the_case_says_what_is_solved(void **state)
 {
-    (void)state;
     static const struct {
         const char *more;
         double load;
@@ -291,7 +281,6 @@ static void the_case_says_what_is_solved(void **state)
 /* A clamp that turns by a quarter takes the body along, at no energy. */
 static void a_turning_clamp_turns_the_body(void **state)
 {
-    (void)state;
     Solved solved;
     make_beam(0.3, 0.3, 3, (const double[3]){0.0, 0.0, 0.0}, "", &solved);
     const OstMesh *mesh = solved.scene->mesh;
@@ -332,7 +321,6 @@ static void a_turning_clamp_turns_the_body(void **state)
  */
 static void strain_is_biots_and_stress_is_cauchys(void **state)
 {
-    (void)state;
     static const char text[] = "mesh: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}\nelement: {order: 2}\n"
                                "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3}]\n"
                                "constraints:\n  - {on: {boundary: xmin}, slide: [1, 0, 0]}\n"

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
 
-#include "core/memory.h"
 #include "core/parallel/reduce.h"
-#include "orthostat/orthostat.h"
 #include "problem/problem.h"
 #include "problem/scene_data.h"
 #include "solve/path_data.h"
@@ -95,14 +93,12 @@ static void compare_steps(const char *body)
 
 static void every_step_is_the_static_answer(void **state)
 {
-    (void)state;
     compare_steps(BODY);
     compare_steps(SOFT);
 }
 
 static void without_a_load_the_body_is_at_rest(void **state)
 {
-    (void)state;
     Made made =
         make(BODY HELD "loads:\n  - {gravity: [0, 0, 1], time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {steps: 2}\n");
     OstResult *result = NULL;
@@ -114,7 +110,6 @@ static void without_a_load_the_body_is_at_rest(void **state)
 
 static void what_has_no_table_needs_no_memory(void **state)
 {
-    (void)state;
     Made made = make(BODY HELD "loads: [{gravity: [0, 0, 1]}, {body_force: [1, 0, 0]}]\n");
     OstProblem *problem = NULL;
     assert_success(ost_scene_problem(made.scene, &problem));
@@ -133,7 +128,6 @@ static void what_has_no_table_needs_no_memory(void **state)
 
 static void a_program_gives_tables_too(void **state)
 {
-    (void)state;
     Made made = make(BODY HELD LOADS TIMES);
     const OstMesh *mesh = made.scene->mesh;
     const size_t nodes = 3 * (size_t)mesh->node_count, owned = 3 * (size_t)mesh->owned_nodes;
@@ -203,7 +197,6 @@ static void compare_end(const char *text, const char *alone)
 
 static void steps_do_not_change_where_a_body_ends(void **state)
 {
-    (void)state;
     compare_end(BEAM BENT ON "path: {steps: 3}\n", BEAM BENT ON);
     /* where the load at t = 0 is not zero, it is brought up first */
     compare_end(BEAM ON "loads:\n  - {gravity: [0, 0, 0.2], time: [[0, 1]]}\npath: {times: [0]}\n",
@@ -219,7 +212,6 @@ static void steps_do_not_change_where_a_body_ends(void **state)
 /* Unloading takes no more than loading did: where a load turns, the last step's slope would lead the wrong way. */
 static void a_load_that_turns_takes_the_body_back(void **state)
 {
-    (void)state;
     Made made = make(BEAM ON "loads:\n  - {on: {boundary: xmax}, total_force: [0, 0, 8], "
                              "time: [[0, 0], [0.5, 1], [1, 0]]}\npath: {steps: 4}\n");
     OstPath *path = NULL;
@@ -240,7 +232,6 @@ static void a_load_that_turns_takes_the_body_back(void **state)
 
 static void a_body_at_rest_stays_until_it_is_loaded(void **state)
 {
-    (void)state;
     Made made = make(BEAM ON BENT "path: {times: [0, 0.5]}\n");
     OstPath *path = NULL;
     OstResult *result = NULL;
@@ -260,7 +251,6 @@ static void a_body_at_rest_stays_until_it_is_loaded(void **state)
 /* Linear theory serves all steps or none. */
 static void one_step_too_far_makes_all_newtons(void **state)
 {
-    (void)state;
     static const struct {
         const char *text;
         int linear;
@@ -300,7 +290,6 @@ static void same_bits(const OstResult *one, const OstResult *other)
 
 static void a_resumed_path_has_the_same_bits(void **state)
 {
-    (void)state;
     static const char *const texts[] = {BODY HELD MOVED LOADS TIMES "solver: {method: metric, coarsest_unknowns: 30}\n",
                                         BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n",
                                         SOFT HELD MOVED LOADS TIMES "solver: {method: metric, coarsest_unknowns: 30}\n",
@@ -381,7 +370,6 @@ static void refuses_other_times(const char *name)
 
 static void checkpoints_that_do_not_fit_are_refused(void **state)
 {
-    (void)state;
     enum { ROOM = 1 << 17 };
     static const char text[] = BODY HELD MOVED LOADS TIMES;
     static const char damaged[] = "it is damaged or incomplete";
@@ -470,7 +458,6 @@ static void end_alone(void)
 /* One rank's checkpoint serves all, and theirs serves one: within rounding the path is the same. */
 static void another_number_of_ranks_goes_on(void **state)
 {
-    (void)state;
     static const char *const texts[] = {BODY HELD MOVED LOADS TIMES, BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n",
                                         SOFT_BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n"};
     char name[300];
@@ -502,7 +489,6 @@ static void another_number_of_ranks_goes_on(void **state)
 /* What differs is named, on any number of ranks. */
 static void another_problem_is_refused_by_name(void **state)
 {
-    (void)state;
     static const char text[] = BEAM ON BENT "path: {times: [0.1, 0.4, 0.7, 1]}\n";
     char name[300], changed[2048];
     checkpoint_name(name);

@@ -4,8 +4,6 @@
 #include "guard/guard.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
-
 /* Elastic foundations and springs, against formulas. */
 
 static OstStatus solve(const char *text, OstCase **c, OstScene **scene, OstResult **result)
@@ -44,7 +42,6 @@ static double displacement_at(const OstResult *result, double x, double y, doubl
 /* A column on a foundation: it sinks by F / (k A), and shortens by F z / (E A) without changing its section. */
 static void a_column_sinks_into_its_foundation(void **state)
 {
-    (void)state;
     static const char *const foundations[] = {"foundation: 4", "foundation: {normal: 4, tangential: 1}",
                                               "foundation: 4, direction: [0, 0, 2]"};
     for (int order = 1; order <= 2; order++)
@@ -73,7 +70,6 @@ static void a_column_sinks_into_its_foundation(void **state)
 /* Springs one after the other: two at one vertex, the body, which moves as a whole. */
 static void springs_at_a_vertex_add_up(void **state)
 {
-    (void)state;
     OstCase *c;
     OstScene *scene;
     OstResult *result;
@@ -94,7 +90,6 @@ static void springs_at_a_vertex_add_up(void **state)
  * I). Shear adds about 2 a² E I / (5/6 G A), 0.4 %, of that (S. Timoshenko's beam). */
 static void a_beam_on_a_foundation_bends_as_hetenyi_says(void **state)
 {
-    (void)state;
     const double a = 0.1, length = 40.0, e = 1000.0, force = 2.0, k = 4.0 * pow(a, 4) * e / 12.0;
     const double w =
         force * a / (2.0 * k) * (cosh(a * length) + cos(a * length) + 2.0) / (sinh(a * length) + sin(a * length));
@@ -117,7 +112,6 @@ static void a_beam_on_a_foundation_bends_as_hetenyi_says(void **state)
 /* What springs do not hold is refused: a spring holds the directions that it has. */
 static void springs_hold_the_directions_they_have(void **state)
 {
-    (void)state;
     static const char body[] = "large_rotation: off\nmesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}\n"
                                "materials: [{region: all, youngs_modulus: 1e3, poissons_ratio: 0.3}]\n"
                                "loads: [{on: {boundary: xmax}, total_force: [1, 0, 0]}]\n";
@@ -158,7 +152,6 @@ static void springs_hold_the_directions_they_have(void **state)
  * body has none. Edges count. */
 static void a_round_body_turns_in_its_bed(void **state)
 {
-    (void)state;
     static const char eight[] =
         "tube: {axis: y, length: 2, radii: [0.5, 1], divisions: {around: 8, radial: 1, axial: 3}}";
     static const char six[] =
@@ -203,7 +196,6 @@ static void a_round_body_turns_in_its_bed(void **state)
 /* Springs alone carry the body: what is wrong with their forces is the error of the reactions. */
 static void forces_of_springs_have_the_error_of_reactions(void **state)
 {
-    (void)state;
     OstCase *c;
     OstScene *scene;
     OstProblem *problem;
@@ -236,7 +228,6 @@ static void forces_of_springs_have_the_error_of_reactions(void **state)
 /* Multigrid, whose coarse space of linear tets is held by springs alone. */
 static void multigrid_solves_a_body_on_springs(void **state)
 {
-    (void)state;
     double tip[2];
     for (int method = 0; method < 2; method++) {
         char text[1024];

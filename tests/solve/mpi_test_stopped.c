@@ -16,7 +16,6 @@
 
 static void what_is_left_is_stated_and_small(void **state)
 {
-    (void)state;
     static const char *const texts[] = {
         TUBE(LINEAR, "youngs_modulus: 1e6, poissons_ratio: 0.3", ""),
         TUBE(LINEAR, "youngs_modulus: 1e6, poissons_ratio: 0.499", ""),
@@ -41,7 +40,6 @@ static void what_is_left_is_stated_and_small(void **state)
 /* A displacement prescribed at one end, and no load. */
 static void a_prescribed_displacement_too(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     Stopped stopped;
     assert_success(read_text("mesh: {block: {size: [4, 1, 1], divisions: [32, 8, 8]}}\n"
@@ -58,7 +56,6 @@ static void a_prescribed_displacement_too(void **state)
  * does not see that. */
 static void a_soft_part_beside_a_stiff_one_is_not_left_behind(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstMeshChunk *chunk = NULL;
     Stopped stopped;
@@ -81,7 +78,6 @@ static void a_soft_part_beside_a_stiff_one_is_not_left_behind(void **state)
 /* One correction fewer, and what it would have changed is far below the error of the mesh. */
 static void newtons_method_stops_too(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     Stopped stopped;
     assert_success(read_text("mesh: {block: {size: [8, 1, 1], divisions: [16, 2, 2]}}\nelement: {order: 2}\n"
@@ -101,7 +97,6 @@ static void newtons_method_stops_too(void **state)
 
 static void a_residual_asked_for_is_reached(void **state)
 {
-    (void)state;
     static const char *const more[] = {"accuracy: {relative_residual: 1e-9}\n", "accuracy: {algebraic_fraction: 0}\n",
                                        "output: {fields: [displacement]}\n", "solver: {method: direct}\n"};
     for (size_t k = 0; k < sizeof more / sizeof *more; k++) {

@@ -8,7 +8,6 @@
  * materials do too if their eigenstrain says so. */
 static void a_strip_of_two_layers_bends_as_timoshenko_says(void **state)
 {
-    (void)state;
     const double difference = 0.01, height = 2.0;
     for (int contrast = 1; contrast <= 4; contrast *= 4) {
         const double n = 1.0 / contrast,
@@ -40,7 +39,6 @@ static void a_strip_of_two_layers_bends_as_timoshenko_says(void **state)
  * three strains; and stress at the nodes is that of the tets. */
 static void nearly_incompressible_rubber_presses(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;
@@ -69,7 +67,6 @@ static void nearly_incompressible_rubber_presses(void **state)
  */
 static void stresses_of_large_swelling_leave_out_what_is_free(void **state)
 {
-    (void)state;
     static const double swelling[3] = {0.3, 0.1, -0.05};
     for (int order = 1; order <= 2; order++)
         for (int held = 0; held <= 1; held++) {
@@ -105,7 +102,6 @@ static void stresses_of_large_swelling_leave_out_what_is_free(void **state)
  * beside a load of its own table, which pulls it by F / (E A). */
 static void swelling_follows_its_own_table(void **state)
 {
-    (void)state;
     static const double factors[3] = {0.5, 1.0, 0.25}, pulled[3] = {0.01, 0.02, 0.04};
     for (int large = 0; large <= 1; large++) {
         char text[1024];

@@ -31,7 +31,6 @@ static void squeeze(OstMeshChunk *chunk, const void *nothing)
 
 static void thin_bodies_take_few_iterations(void **state)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
         int order, layers, most;
@@ -55,7 +54,6 @@ static void thin_bodies_take_few_iterations(void **state)
 /* A factorisation would find the same: factor_memory, which is as good as 0, is not to blame. */
 static void a_plate_beyond_double_precision_is_not_refused_for_want_of_memory(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;

@@ -2,8 +2,6 @@
 #include "../case/case_text.h"
 #include "problem/scene_data.h"
 
-#include "orthostat/orthostat.h"
-
 /* Moments, forces at a point and centrifugal loads, against formulas. */
 
 typedef struct Solved {
@@ -63,7 +61,6 @@ static double bar_tip(const char *loads, int component)
 /* Without Poisson's ratio beam theory is the exact solution, M L² / (2 E I), and quadratic tets hold it. */
 static void a_moment_bends_a_bar_as_beam_theory_says(void **state)
 {
-    (void)state;
     const double bent = 5.0 * 16.0 / (2.0 * 1200.0 / 12.0);
     assert_close(bar_tip("loads: [{on: {boundary: xmax}, moment: [0, 0, 5]}]\n", 1), bent, 1e-9);
     assert_close(bar_tip("loads: [{on: {boundary: xmax}, moment: [0, 5, 0]}]\n", 2), -bent, 1e-9);
@@ -72,7 +69,6 @@ static void a_moment_bends_a_bar_as_beam_theory_says(void **state)
 /* A force beside the bar is the force at the end's centroid, and the moment that its arm makes. */
 static void a_force_at_a_point_is_a_force_and_a_moment(void **state)
 {
-    (void)state;
     const double far = bar_tip("loads: [{on: {boundary: xmax}, total_force: [0, 2, 0], at: [7, 0.5, 0.5]}]\n", 1);
     const double near = bar_tip("loads: [{on: {boundary: xmax}, total_force: [0, 2, 0]}]\n", 1);
     const double here = bar_tip("loads: [{on: {boundary: xmax}, total_force: [0, 2, 0], at: [4, 0.5, 0.5]}]\n", 1);
@@ -87,7 +83,6 @@ static void a_force_at_a_point_is_a_force_and_a_moment(void **state)
 /* What acts on faces or vertices has the force and the moment asked for, about any point, on curved faces too. */
 static void forces_add_up_to_what_is_asked_for(void **state)
 {
-    (void)state;
     static const char *const how[] = {"share: faces", "share: vertices"};
     for (int order = 1; order <= 2; order++)
         for (int h = 0; h < 2; h++) {
@@ -132,7 +127,6 @@ static void forces_add_up_to_what_is_asked_for(void **state)
 /* T L / (G J), but for the error of quadratic tets on a round section, 0.3 %. */
 static void a_torque_twists_a_tube_as_theory_says(void **state)
 {
-    (void)state;
     Solved solved =
         solve("large_rotation: off\nmesh: {tube: {axis: z, length: 4, radii: [0.5, 1], divisions: {around: 24, "
               "radial: 2, axial: 4}}}\nelement: {order: 2}\n"
@@ -148,7 +142,6 @@ static void a_torque_twists_a_tube_as_theory_says(void **state)
  * origin, and the speed's sign does not matter. */
 static void a_disc_widens_as_it_turns(void **state)
 {
-    (void)state;
     const double e = 1e3, nu = 0.3, a = 1.0, b = 3.0, load = 2.0 * 1.5 * 1.5;
     const double hoop = (3.0 + nu) / 8.0 * load * (2.0 * a * a + b * b - (1.0 + 3.0 * nu) / (3.0 + nu) * b * b);
     const double hoop_inside = (3.0 + nu) / 8.0 * load * (a * a + 2.0 * b * b - (1.0 + 3.0 * nu) / (3.0 + nu) * a * a);
@@ -168,7 +161,6 @@ static void a_disc_widens_as_it_turns(void **state)
 /* A bar that turns about an end pulls there with rho omega² A L² / 2; another axis with rho omega² A L (L / 2 + d). */
 static void the_reaction_is_the_centrifugal_force(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         char text[1024];
         snprintf(text, sizeof text,
@@ -211,7 +203,6 @@ static void assert_unsolved(const char *loads, const char *says)
 
 static void what_cannot_be_is_refused(void **state)
 {
-    (void)state;
     assert_unsolved("loads: [{on: {nearest: [4, 1, 1]}, moment: [0, 0, 5]}]\n", "the selection is one point");
     assert_unsolved("loads: [{on: {vertices: [37, 38, 39]}, moment: [0, 0, 5]}]\n", "the selection is one line");
     assert_unsolved("loads: [{on: {nearest: [4, 1, 1]}, moment: [0, 0, 5], share: faces}]\n", "holds nothing");

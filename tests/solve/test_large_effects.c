@@ -37,7 +37,6 @@ static void displacement_of(const OstResult *result, double x, double y, double 
  * face P(a) = -p r(a)/a, since the pressure acts on the circumference as it has become. */
 static void a_ring_widens_under_its_growing_surface(void **state)
 {
-    (void)state;
     const double a = 1.0, b = 2.0, e = 10.0, nu = 0.3, p = 1.0;
     const double c11 = e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)), c12 = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
     /* P = (c11 + c12) (A - 1) - (c11 - c12) B / R²; with P(b) = 0, A - 1 = k B / b². */
@@ -98,7 +97,6 @@ static void elastica_tip(double q, double stiffness, double length, double tip[2
 
 static void a_strip_under_pressure_is_an_elastica(void **state)
 {
-    (void)state;
     double tip[2], u[3];
     OstCase *c;
     OstScene *scene;
@@ -118,7 +116,6 @@ static void a_strip_under_pressure_is_an_elastica(void **state)
 /* The same curvature, 3/2 of the difference over the height for equal moduli, bends a long strip into half a circle. */
 static void a_long_strip_of_two_layers_closes_half_a_circle(void **state)
 {
-    (void)state;
     const double length = 60.0, height = 2.0, half = M_PI * height / (3.0 * length), radius = length / M_PI;
     char text[1024];
     OstCase *c = NULL;
@@ -142,7 +139,6 @@ static void a_long_strip_of_two_layers_closes_half_a_circle(void **state)
  * but where the forces do not balance nothing is accepted. */
 static void what_is_not_at_rest_is_not_accepted(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstResult *result = NULL;

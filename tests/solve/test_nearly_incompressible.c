@@ -153,7 +153,6 @@ static double stress_error(const Pose *pose)
 
 static void quadratic_tets_with_the_mean_are_right_at_any_poissons_ratio(void **state)
 {
-    (void)state;
     static const double nu[3] = {0.49, 0.499, 0.4999};
     static const double exact[3] = {5.039925e-3, 5.06024925e-3, 5.062274992e-3}; /* u(a), from the formula */
     for (int n = 0; n < 3; n++) {
@@ -168,7 +167,6 @@ static void quadratic_tets_with_the_mean_are_right_at_any_poissons_ratio(void **
 /* What the remedy is for: without it displacements are passable on this mesh, stresses are not. */
 static void the_mean_is_what_makes_stresses_right(void **state)
 {
-    (void)state;
     Pose whole = make_pose(2, 0.4999, 0);
     Pose split = make_pose(2, 0.4999, 1);
     assert_true(stress_error(&whole) > 1.0);
@@ -180,7 +178,6 @@ static void the_mean_is_what_makes_stresses_right(void **state)
 
 static void linear_tets_lock_and_the_mean_is_nothing_to_them(void **state)
 {
-    (void)state;
     Pose whole = make_pose(1, 0.4999, 0);
     Pose split = make_pose(1, 0.4999, 1);
     assert_true(displacement_error(&whole, 0.4999) > 0.1);

@@ -4,7 +4,6 @@
 /* The paper's four tubes: the stop saves two fifths of the iterations to 1e-8 at the least. */
 static void the_stop_saves_most_iterations_of_the_papers_tubes(void **state)
 {
-    (void)state;
     static const char *const scenes[] = {"isotropic", "longitudinal", "radial", "tangential"};
     const char *source = getenv("ORTHOSTAT_SOURCE");
     assert_non_null(source);

@@ -65,7 +65,6 @@ static OstStatus pretend_all_fail(OstCost *study, const OstCase *variant, OstCos
 
 static void the_variants_are_listed_once_and_in_order(void **state)
 {
-    (void)state;
     const OstCostVariants variants = {.order_count = 3,
                                       .refinement_count = 2,
                                       .tolerance_count = 2,
@@ -114,7 +113,6 @@ static OstStatus pretend_to_turn(OstCost *study, const OstCase *variant, OstCost
 
 static void large_rotations_have_rungs_of_their_own(void **state)
 {
-    (void)state;
     char more[64];
     make_study("", &large);
     cost->measure = pretend_to_turn;
@@ -135,7 +133,6 @@ static void large_rotations_have_rungs_of_their_own(void **state)
 /* Nor where no rotation was found to be large. */
 static void small_rotations_have_no_such_rungs(void **state)
 {
-    (void)state;
     make_study("", &large);
     cost->measure = pretend;
     assert_success(ost_cost_run(cost));
@@ -148,7 +145,6 @@ static void small_rotations_have_no_such_rungs(void **state)
 
 static void values_out_of_range_are_refused(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     assert_success(read_text(beam, &c));
     variants.order[1] = 3;
@@ -168,7 +164,6 @@ static void values_out_of_range_are_refused(void **state)
 
 static void time_bounds_what_runs(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.max_seconds = 50.0;
     make_study("", &variants);
@@ -186,7 +181,6 @@ static void time_bounds_what_runs(void **state)
 
 static void memory_bounds_what_runs(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.order_count = 1;
     variants.max_bytes = 1e8;
@@ -201,7 +195,6 @@ static void memory_bounds_what_runs(void **state)
 
 static void errors_are_against_the_extrapolated_answer(void **state)
 {
-    (void)state;
     const OstCostVariants variants = ost_cost_default_variants();
     make_study("", &variants);
     cost->measure = pretend;
@@ -226,7 +219,6 @@ static void errors_are_against_the_extrapolated_answer(void **state)
 
 static void errors_are_against_the_formula_where_there_is_one(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.refinement_count = 2;
     make_study("watch: {work: {strain_energy: all, expected: 1.6}, tip: {displacement: {nearest: [4, 0, 0]}}}\n",
@@ -250,7 +242,6 @@ static void errors_are_against_the_formula_where_there_is_one(void **state)
 
 static void a_lone_answer_of_order_two_is_measured_by_order_one(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.refinement_count = 1;
     make_study("", &variants);
@@ -291,7 +282,6 @@ static OstStatus pretend_requests(OstCost *study, const OstCase *variant, OstCos
 
 static void a_request_is_measured_by_settings_that_meet_it(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.accuracy_count = 2;
     variants.accuracy[0] = 0.3;
@@ -315,7 +305,6 @@ static void a_request_is_measured_by_settings_that_meet_it(void **state)
 /* Of 100 s, 89.6 would be enough for order 1 refined twice. */
 static void requests_have_half_of_the_time(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.accuracy_count = 2;
     variants.accuracy[0] = 0.3;
@@ -335,7 +324,6 @@ static void requests_have_half_of_the_time(void **state)
 
 static void near_by_accident_is_not_exact(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.tolerance_count = 1;
     variants.tolerance[0] = 1e-8;
@@ -353,7 +341,6 @@ static void near_by_accident_is_not_exact(void **state)
 
 static void what_diverges_has_no_price(void **state)
 {
-    (void)state;
     const OstCostVariants variants = ost_cost_default_variants();
     make_study("", &variants);
     cost->measure = pretend;
@@ -367,7 +354,6 @@ static void what_diverges_has_no_price(void **state)
 
 static void a_run_that_fails_is_listed_with_its_reason(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.max_seconds = 1e6;
     make_study("", &variants);
@@ -389,7 +375,6 @@ static void a_run_that_fails_is_listed_with_its_reason(void **state)
 
 static void the_frontier_is_what_nothing_beats(void **state)
 {
-    (void)state;
     OstCostVariants variants = ost_cost_default_variants();
     variants.tolerance_count = OST_COST_MOST_VALUES;
     for (int t = 0; t < OST_COST_MOST_VALUES; t++)
@@ -430,7 +415,6 @@ static double tip_error(int order, int refinement)
 
 static void a_cantilever_has_its_price_list(void **state)
 {
-    (void)state;
     const OstCostVariants variants = ost_cost_default_variants();
     make_study(watch, &variants);
     const size_t before = ost_ledger_bytes(ctx);
@@ -465,7 +449,6 @@ static void a_cantilever_has_its_price_list(void **state)
 
 static void a_place_is_a_vertex_and_stays_there(void **state)
 {
-    (void)state;
     OstMeshChunk *chunk = NULL;
     OstMesh *linear = NULL, *quadratic = NULL;
     const OstBlockShape shape = {.size = {2, 1, 1}, .divisions = {2, 1, 1}};
@@ -489,7 +472,6 @@ static void a_place_is_a_vertex_and_stays_there(void **state)
 
 static void the_ledgers_peak_can_start_again(void **state)
 {
-    (void)state;
     char *block = NULL;
     assert_success(OST_NEW(ctx, &block, 100000));
     OST_FREE(block);

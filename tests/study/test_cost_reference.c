@@ -11,7 +11,6 @@ static void fill(const double *h, int count, double limit, double c, double rate
 
 static void a_power_law_is_found_exactly(void **state)
 {
-    (void)state;
     const double rates[] = {0.5, 1.0, 1.8, 2.0, 4.0};
     const double h[3] = {1.0, 0.5, 0.25};
     for (int i = 0; i < 5; i++)
@@ -27,7 +26,6 @@ static void a_power_law_is_found_exactly(void **state)
 
 static void steps_of_refinement_may_differ(void **state)
 {
-    (void)state;
     const double h[3] = {1.0, 0.5, 0.125};
     double q[3];
     OstExtrapolation found;
@@ -39,7 +37,6 @@ static void steps_of_refinement_may_differ(void **state)
 
 static void what_does_not_tend_anywhere_has_no_limit(void **state)
 {
-    (void)state;
     const double h[3] = {1.0, 0.5, 0.25};
     OstExtrapolation found;
     assert_false(ost_extrapolate(h, (const double[]){1.0, 2.0, 3.0}, &found)); /* log h */
@@ -61,7 +58,6 @@ static OstCostReference reference_of(int order, int count, const double *value)
 
 static void a_sensible_rate_is_extrapolated(void **state)
 {
-    (void)state;
     const double h[4] = {1.0, 0.5, 0.25, 0.125};
     double q[4];
     fill(h, 4, 3.0, 1.0, 2.0, q);
@@ -77,7 +73,6 @@ static void a_sensible_rate_is_extrapolated(void **state)
 
 static void a_rate_beyond_the_order_is_not_believed(void **state)
 {
-    (void)state;
     const double h[3] = {1.0, 0.5, 0.25};
     double q[3];
     fill(h, 3, 3.0, 1.0, 3.9, q);
@@ -92,7 +87,6 @@ static void a_rate_beyond_the_order_is_not_believed(void **state)
 
 static void growing_differences_are_called_so(void **state)
 {
-    (void)state;
     const OstCostReference found = reference_of(1, 3, (const double[]){1.0, 2.0, 4.0});
     assert_int_equal(found.kind, OST_REFERENCE_FINEST);
     assert_true(isinf(found.uncertainty));
@@ -101,7 +95,6 @@ static void growing_differences_are_called_so(void **state)
 
 static void few_answers_say_how_little_they_know(void **state)
 {
-    (void)state;
     assert_int_equal(reference_of(1, 0, NULL).kind, OST_REFERENCE_NONE);
     const OstCostReference one = reference_of(1, 1, (const double[]){2.0});
     assert_int_equal(one.kind, OST_REFERENCE_FINEST);
@@ -113,7 +106,6 @@ static void few_answers_say_how_little_they_know(void **state)
 
 static void an_answer_that_stays_is_the_reference(void **state)
 {
-    (void)state;
     const OstCostReference found = reference_of(1, 2, (const double[]){2.0 + 1e-9, 2.0});
     assert_int_equal(found.kind, OST_REFERENCE_SETTLED);
     assert_close(found.uncertainty, 1e-7, 1e-12);
@@ -121,7 +113,6 @@ static void an_answer_that_stays_is_the_reference(void **state)
 
 static void errors_of_nothing_are_shares_of_its_scale(void **state)
 {
-    (void)state;
     const OstCostReference tiny = reference_of(1, 3, (const double[]){4e-8, 1e-8, 0.0});
     assert_close(tiny.size, 1.0, 0.0);
     /* tends to 0 as h²: whatever is left of it is lost in the doubt */
@@ -133,7 +124,6 @@ static void errors_of_nothing_are_shares_of_its_scale(void **state)
 
 static void a_formula_is_exact(void **state)
 {
-    (void)state;
     OstCostReference found;
     ost_reference_of_formula(-0.25, 3.0, &found);
     assert_int_equal(found.kind, OST_REFERENCE_FORMULA);
@@ -149,7 +139,6 @@ static void a_formula_is_exact(void **state)
 /* An error of 1 is 0.66 to 1.05 of the true one. */
 static void an_estimate_replaces_what_is_less_certain(void **state)
 {
-    (void)state;
     OstCostReference found = {.kind = OST_REFERENCE_FINEST, .value = 98.0, .size = 98.0, .uncertainty = 0.004};
     ost_reference_improve(99.0, 1.0, 3, &found);
     assert_int_equal(found.kind, OST_REFERENCE_FINEST);

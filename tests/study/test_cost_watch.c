@@ -17,7 +17,6 @@ static void refused(const char *text, const char *expected)
 
 static void watches_are_read(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     watched("{tip: {displacement: {nearest: [1, 0.5, 0]}, component: y}, e: strain_energy, "
             "held: {reaction: {boundary: xmin}}}",
@@ -38,7 +37,6 @@ static void watches_are_read(void **state)
 
 static void what_a_formula_expects_is_read(void **state)
 {
-    (void)state;
     OstCase *c = NULL;
     watched("{tip: {displacement: {nearest: [1, 0, 0]}, expected: -1.5e-3, source: Timoshenko §41}, "
             "held: {reaction: {boundary: xmin}, expected: 2}, "
@@ -61,7 +59,6 @@ static void what_a_formula_expects_is_read(void **state)
 
 static void wrong_expectations_are_refused_where_they_stand(void **state)
 {
-    (void)state;
     refused("{e: {strain_energy: all, expected: much}}", "3:43: watch.e.expected: ...");
     refused("{e: {strain_energy: all, expected: .nan}}", "3:43: watch.e.expected: ...");
     refused("{e: {strain_energy: all, source: a book}}", "3:41: found a source but no value...");
@@ -72,7 +69,6 @@ static void wrong_expectations_are_refused_where_they_stand(void **state)
 
 static void wrong_watches_are_refused_where_they_stand(void **state)
 {
-    (void)state;
     refused("[tip]", "3:8: watch: found a list of 1, expected a name for each quantity...");
     refused("{tip: stress}", "3:14: watch.tip: found 'stress', expected strain_energy...");
     refused("{tip: {displacement: {boundary: xmin}}}", "3:29: a displacement is taken at one vertex...");

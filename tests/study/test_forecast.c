@@ -46,7 +46,6 @@ static double foretold_over_taken(const char *mesh, int order, const char *mater
 
 static void memory_is_foretold(void **state)
 {
-    (void)state;
     static const struct {
         const char *mesh;
         int order;
@@ -85,7 +84,6 @@ static OstForecast forecast(const char *mesh, int order, const char *material, c
 /* A node of a solid block has more neighbours than one of a thin wall. */
 static void a_solid_body_costs_more_an_unknown(void **state)
 {
-    (void)state;
     const OstForecast thin =
         forecast("tube: {axis: y, length: 10, radii: [1.4, 1.5], divisions: {around: 116, radial: 1, axial: 127}}", 1,
                  USUAL, "");
@@ -99,7 +97,6 @@ static void a_solid_body_costs_more_an_unknown(void **state)
 
 static void what_is_hard_takes_more(void **state)
 {
-    (void)state;
     static const char *const mesh = "block: {size: [1, 1, 1], divisions: [20, 20, 20]}";
     const char *const tight = "accuracy: {relative_residual: 1e-8}\n";
     const OstForecast usual = forecast(mesh, 1, USUAL, tight);
@@ -121,7 +118,6 @@ static void what_is_hard_takes_more(void **state)
 /* Cells 0.25 to 6 times as long as the wall is thick, in one and two layers. */
 static void thin_walls_take_more_iterations(void **state)
 {
-    (void)state;
     static const struct {
         const char *mesh;
         int order;
@@ -151,7 +147,6 @@ static void thin_walls_take_more_iterations(void **state)
 /* Cells of a quarter of a tube, 0.1 thick: arcs of pi / 2 × 1.05 / 11, refined once. */
 static void cells_of_shapes_have_a_slenderness(void **state)
 {
-    (void)state;
     make_plan(
         "sector: {axis: z, length: 3, radii: [1, 1.1], angle: 90, divisions: {around: 11, radial: 1, axial: 20}}\n"
         "  refine: 1",
@@ -163,7 +158,6 @@ static void cells_of_shapes_have_a_slenderness(void **state)
 
 static void few_unknowns_are_factored(void **state)
 {
-    (void)state;
     const OstForecast few = forecast("block: {size: [1, 1, 1], divisions: [4, 4, 4]}", 1, USUAL, "");
     assert_close(few.iterations, 1.0, 0.0);
     assert_true(few.in_all > 0.0 && isfinite(few.in_all));
@@ -172,7 +166,6 @@ static void few_unknowns_are_factored(void **state)
 /* The parts of a forecast add up, and ranks share its work. */
 static void ranks_share_the_work(void **state)
 {
-    (void)state;
     OstRates rates = {.start = 0.5, .process_bytes = 1e7, .small_bytes = {1e6, 1e6}, .large_bytes = {2e6, 2e6}};
     for (int q = 0; q < 2; q++)
         for (int s = 0; s < OST_STAGES; s++)
@@ -195,7 +188,6 @@ static void ranks_share_the_work(void **state)
 
 static void rates_lie_between_those_measured(void **state)
 {
-    (void)state;
     OstRates rates = {.small_bytes = {1e6, 1e7}, .large_bytes = {1e8, 1e7}};
     rates.stage[0][OST_STAGE_SOLVE] = (OstRate){1.0, 3.0};
     rates.stage[1][OST_STAGE_SOLVE] = (OstRate){1.0, 3.0};
@@ -234,7 +226,6 @@ static void assert_words(const OstRates *rates, const char *version, const char 
 
 static void rates_are_kept_and_say_where_they_are_from(void **state)
 {
-    (void)state;
     char folder[64];
     OstRates found, made = ost_rates_of_here("1.2.3");
     enter_cache(folder);
@@ -266,7 +257,6 @@ static void rates_are_kept_and_say_where_they_are_from(void **state)
 
 static void rates_that_cannot_be_read_are_not_used(void **state)
 {
-    (void)state;
     static const char *const broken[] = {"", "{", "{}", "{\"machine\": \"a\", \"orders\": 3}", "[1, 2]"};
     char folder[64], path[128];
     OstRates found;

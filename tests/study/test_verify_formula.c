@@ -54,7 +54,6 @@ static void check_torsion(const char *shear, double published)
 /* Numbers of the issue: T / theta of a 2 × 1 section; the first is also Timoshenko and Goodier's 0.229 × 2. */
 static void torsion_of_a_rectangle_is_the_published(void **state)
 {
-    (void)state;
     check_torsion("G12: 1, G23: 1, G31: 1", 0.45736335);
     check_torsion("G12: 1, G23: 5, G31: 1", 0.57271483);
     check_torsion("G12: 1, G23: 1, G31: 5", 1.2501145);
@@ -63,7 +62,6 @@ static void torsion_of_a_rectangle_is_the_published(void **state)
 /* Lekhnitskii's tube with the issue's constants. */
 static void the_orthotropic_tube_is_the_published(void **state)
 {
-    (void)state;
     make(cube,
          "materials: [{region: all, youngs_modulus: [10, 100, 10], "
          "poissons_ratio: {nu12: 0.03, nu23: 0.3, nu13: 0.3}, shear_modulus: {G12: 5, G23: 5, G31: 5}, "
@@ -89,7 +87,6 @@ static double inner_displacement(const char *formula, const char *nu)
 /* MacNeal and Harder (1985), Finite Elements in Analysis and Design 1, table 9; the issue's numbers. */
 static void thick_walls_are_the_published(void **state)
 {
-    (void)state;
     assert_close(inner_displacement("cylinder", "0.49"), 5.039925e-3, 1e-12);
     assert_close(inner_displacement("cylinder", "0.499"), 5.06024925e-3, 1e-12);
     assert_close(inner_displacement("cylinder", "0.4999"), 5.062274992e-3, 1e-12);
@@ -100,7 +97,6 @@ static void thick_walls_are_the_published(void **state)
 /* P L³ / 3EI + P L (12 + 11 nu) / (10 (1 + nu)) / (G A), for nu = 0.3 and G = E / 2.6 (Cowper 1966). */
 static void an_isotropic_bar_has_cowpers_shear_coefficient(void **state)
 {
-    (void)state;
     make(bar, "materials: [{region: all, youngs_modulus: 13, poissons_ratio: 0.3}]\n", "flexure", "force: 2");
     const double bending = 2.0 * 1000.0 / (3.0 * 13.0 * 0.8 / 12.0);
     const double shear = 2.0 * 10.0 * (12.0 + 3.3) / 13.0 / (5.0 * 0.8);
@@ -131,7 +127,6 @@ static void check_balance(const double force[3], double scale)
 
 static void every_solution_is_in_balance_with_its_load(void **state)
 {
-    (void)state;
     const double none[3] = {0.0, 0.0, 0.0};
     make(bar, wood, "flexure", "force: 1");
     check_balance(none, 100.0);
@@ -167,7 +162,6 @@ static void stress_at(double x, double y, double z, double stress[6])
 /* Traction on the sides of a bar, away from the corners where the series is cut. */
 static void the_sides_of_a_bent_bar_are_free(void **state)
 {
-    (void)state;
     make(bar, wood, "flexure", "force: 1");
     for (int i = -2; i <= 2; i++) {
         double s[6];
@@ -185,7 +179,6 @@ static void the_sides_of_a_bent_bar_are_free(void **state)
 
 static void the_sides_of_a_twisted_bar_are_free(void **state)
 {
-    (void)state;
     make(column, wood, "torsion", "twist: 0.1");
     for (int i = -2; i <= 2; i++) {
         double s[6];
@@ -199,7 +192,6 @@ static void the_sides_of_a_twisted_bar_are_free(void **state)
 
 static void the_inside_of_a_tube_bears_the_pressure(void **state)
 {
-    (void)state;
     double s[6];
     make(cube, steel, "cylinder", "inner_radius: 1, outer_radius: 2, pressure: 3");
     stress_at(0.0, 1.0, 0.2, s);
@@ -233,7 +225,6 @@ static void mean_deflection_and_rotation(double x, double *deflection, double *r
 
 static void the_mean_line_is_timoshenkos(void **state)
 {
-    (void)state;
     static const char *const formula[] = {"flexure", "bending"};
     static const char *const parameter[] = {"force: 1", "moment: 1"};
     for (int f = 0; f < 2; f++) {
@@ -252,7 +243,6 @@ static void the_mean_line_is_timoshenkos(void **state)
 /* Differences of eighth order against derivatives by hand, and with another step. */
 static void differences_are_good_to_ten_digits(void **state)
 {
-    (void)state;
     const double point[3] = {0.3, 0.7, 0.2};
     double force[3], again[3], by_hand[9], by_differences[9];
     make(cube, any_body, "waves", "amplitude: 0.5, wave_number: 3");
@@ -276,7 +266,6 @@ static void differences_are_good_to_ten_digits(void **state)
 /* Of u = (x², ...) the isotropic body force is known: -(lambda + mu) grad div u - mu lap u. */
 static void the_force_of_a_polynomial_is_known(void **state)
 {
-    (void)state;
     double found[3];
     make(cube, "materials: [{region: all, youngs_modulus: 2.6, poissons_ratio: 0.3}]\n", "polynomial", "degree: 2");
     const double mu = 1.0, lambda = 2.6 * 0.3 / (1.3 * 0.4);
@@ -301,7 +290,6 @@ static void refuse(const char *mesh, const char *material, const char *formula, 
 
 static void formulas_refuse_what_they_are_not_for(void **state)
 {
-    (void)state;
     refuse(cube, steel, "flexion", "force: 1", "there is no formula 'flexion'; there are: flexure, bending");
     refuse(bar, steel, "flexure", "forces: 1", "wants the parameter 'force'");
     refuse(bar, steel, "flexure", "force: 1, moment: 1", "found 2 parameters");

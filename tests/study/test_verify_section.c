@@ -13,7 +13,6 @@ static void section(const char *rest, char *whole, size_t size)
 
 static void a_section_is_read_as_it_stands(void **state)
 {
-    (void)state;
     char whole[2048];
     section(
         "  parameters: {force: 2, length: -1e3}\n"
@@ -55,7 +54,6 @@ static void a_section_is_read_as_it_stands(void **state)
 
 static void a_quantitys_vertex_list_is_read_with_the_case(void **state)
 {
-    (void)state;
     char whole[2048];
     section("  ladder: [{order: 1, refinements: [1]}]\n"
             "  quantities:\n"
@@ -67,7 +65,6 @@ static void a_quantitys_vertex_list_is_read_with_the_case(void **state)
 
 static void the_word_exact_is_read(void **state)
 {
-    (void)state;
     char whole[1024];
     snprintf(whole, sizeof whole,
              "%s%sconstraints:\n  - {on: {boundary: xmin}, displacement: exact}\n"
@@ -93,7 +90,6 @@ static void refuse(const char *rest, const char *expected)
 
 static void mistakes_are_named(void **state)
 {
-    (void)state;
     refuse("  ladder: [{order: 1, refinements: [0, 2]}]\n  quantities: {}\n",
            "6:40: found refinement 2 after 0, expected 1: each mesh halves the last");
     refuse("  ladder: [{order: 3, refinements: [0]}]\n  quantities: {}\n",

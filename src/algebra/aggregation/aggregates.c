@@ -52,14 +52,7 @@ typedef struct Grouping {
 
 static void destroy_grouping(Grouping *g)
 {
-    OST_FREE(g->own_length);
-    OST_FREE(g->distance);
-    OST_FREE(g->source);
-    OST_FREE(g->queue);
-    OST_FREE(g->covered);
-    OST_FREE(g->seed);
-    OST_FREE(g->size);
-    OST_FREE(g->centre);
+    OST_FREE(g->own_length, g->distance, g->source, g->queue, g->covered, g->seed, g->size, g->centre);
     OST_FREE(g->offset);
 }
 

@@ -86,8 +86,7 @@ static OstStatus group(const OstMetricGraph *graph, int in_metric, OstAggregates
     join(graph, in_metric, set, limit);
     *largest = number_sets(n, set, set + n, columns);
 done:
-    OST_FREE(set);
-    OST_FREE(limit);
+    OST_FREE(set, limit);
     return status;
 }
 

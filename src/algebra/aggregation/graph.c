@@ -18,11 +18,7 @@ void ost_metric_graph_destroy(OstMetricGraph **graph)
 {
     if (!*graph)
         return;
-    OST_FREE((*graph)->edge_start);
-    OST_FREE((*graph)->neighbour);
-    OST_FREE((*graph)->length);
-    OST_FREE((*graph)->position);
-    OST_FREE((*graph)->metric);
+    OST_FREE((*graph)->edge_start, (*graph)->neighbour, (*graph)->length, (*graph)->position, (*graph)->metric);
     OST_FREE(*graph);
 }
 
@@ -181,11 +177,9 @@ OstStatus ost_metric_graph_create(const OstBlockMatrix *matrix, const OstSolverG
     OstContext *ctx = matrix->ctx;
     *graph = NULL;
     OstStatus status = allocate_graph(ctx, matrix->rows, matrix->row_start[matrix->rows], graph);
-    if (status == OST_SUCCESS)
-        status = fill_from_matrix(matrix, geometry, *graph);
+    OST_THEN(fill_from_matrix(matrix, geometry, *graph));
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = part_at_jumps(matrix, geometry->facts, *graph);
+    OST_THEN(part_at_jumps(matrix, geometry->facts, *graph));
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(graph);
     return status;
@@ -282,9 +276,7 @@ OstStatus ost_metric_graph_coarsen(const OstMetricGraph *fine, const OstAggregat
     measure_edges(*coarse);
     (*coarse)->jump = fine->jump;
 done:
-    OST_FREE(start);
-    OST_FREE(member);
-    OST_FREE(seen);
+    OST_FREE(start, member, seen);
     if (status != OST_SUCCESS)
         ost_metric_graph_destroy(coarse);
     return status;

@@ -10,7 +10,6 @@
 #include <float.h>
 #include <limits.h>
 #include <stdio.h>
-#include <string.h>
 
 /* The MUMPS manual numbers controls and results from 1. */
 #define ICNTL(k) icntl[(k)-1]
@@ -66,8 +65,7 @@ void ost_mumps_destroy(OstMumps **mumps)
         return;
     if ((*mumps)->started)
         call(*mumps, JOB_END);
-    OST_FREE((*mumps)->counts);
-    OST_FREE((*mumps)->vector);
+    OST_FREE((*mumps)->counts, (*mumps)->vector);
     OST_FREE(*mumps);
 }
 
@@ -248,9 +246,7 @@ static void take_entries(OstMumps *mumps, OstMumpsEntries *entries)
 
 static void free_entries(OstMumps *mumps)
 {
-    OST_FREE(mumps->id.irn_loc);
-    OST_FREE(mumps->id.jcn_loc);
-    OST_FREE(mumps->id.a_loc);
+    OST_FREE(mumps->id.irn_loc, mumps->id.jcn_loc, mumps->id.a_loc);
 }
 
 /* Where each rank's unknowns are in the vectors on rank 0. */
@@ -259,8 +255,7 @@ static OstStatus prepare_vectors(OstMumps *mumps)
     OstContext *ctx = mumps->ctx;
     const int size = ost_rank(ctx) == 0 ? ost_size(ctx) : 0;
     OstStatus status = OST_NEW(ctx, &mumps->counts, 2 * size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0);
+    OST_THEN(OST_NEW(ctx, &mumps->vector, size > 0 ? mumps->all : 0));
     OST_TRY(ost_agree(ctx, status));
     mumps->starts = mumps->counts + size;
     OST_TRY(OST_MPI(ctx, MPI_Gather(&mumps->unknowns, 1, MPI_INT, mumps->counts, 1, MPI_INT, 0, ost_comm(ctx))));

@@ -186,8 +186,7 @@ static OstStatus solve_hidden(Cg *cg, const double *f, double *u, OstGoal *goal,
         if (report->error_estimate <= requested)
             break;
         status = tighten(cg, f, u, before, goal, &on);
-        if (status == OST_SUCCESS)
-            status = report_error(cg, f, u, goal, report);
+        OST_THEN(report_error(cg, f, u, goal, report));
     }
     OST_FREE(before);
     return status;
@@ -203,8 +202,7 @@ OstStatus ost_cg_solve(const OstCgSystem *system, const OstPreconditioner *preco
                      .n = 3 * (size_t)system->matrix->rows,
                      .base = u}};
     OstStatus status = OST_NEW(ctx, &cg.run.residual, cg.run.n + 3 * (size_t)system->matrix->columns);
-    if (status == OST_SUCCESS)
-        status = ost_lanczos_create(ctx, goal->most_iterations, &cg.run.lanczos);
+    OST_THEN(ost_lanczos_create(ctx, goal->most_iterations, &cg.run.lanczos));
     OST_TRY_DONE(ost_agree(ctx, status));
     cg.run.unscaled = cg.run.residual + cg.run.n;
     OST_TRY_DONE(ost_refine(system->matrix, solve_scaled, &cg, f, u, goal));

@@ -219,8 +219,7 @@ OstStatus ost_energy_error(const OstCgSystem *system, const OstPreconditioner *p
     work.u = work.corrected + work.n;
     memcpy(work.u, u, work.n * sizeof *u);
     const OstStatus status = estimate(&work, f, compensated, error);
-    OST_FREE(work.residual);
-    OST_FREE(work.remaining);
+    OST_FREE(work.residual, work.remaining);
     ost_compensated_step_destroy(&work.step);
     return status;
 }

@@ -22,8 +22,7 @@ OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos)
 
 void ost_lanczos_destroy(OstLanczos *lanczos)
 {
-    OST_FREE(lanczos->alpha);
-    OST_FREE(lanczos->weight);
+    OST_FREE(lanczos->alpha, lanczos->weight);
 }
 
 void ost_lanczos_add(OstLanczos *lanczos, double alpha, double weight)

@@ -6,7 +6,6 @@
 #include "core/parallel/reduce.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Our own conjugate gradients, where AztecOO's cannot be. Preconditioned by factors of A itself there are one to three
  * steps, most of them close to rounding: AztecOO's break down where rounding hides p·Ap, although the step by the

@@ -9,7 +9,6 @@
 #include "core/parallel/reduce.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* A pass that does not halve the residual is a stall. So many are allowed in a row; more for CG preconditioned by

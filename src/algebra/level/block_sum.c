@@ -15,8 +15,7 @@ OstStatus ost_block_sum_create(OstContext *ctx, OstGlobal first, OstLocal owned,
     OST_TRY(OST_NEW(ctx, sum, 1));
     **sum = (OstBlockSum){.ctx = ctx, .first = first, .owned = owned};
     OstStatus status = ost_index_create(ctx, 1, &(*sum)->ghost);
-    if (status == OST_SUCCESS)
-        status = ost_index_create(ctx, 1, &(*sum)->entry);
+    OST_THEN(ost_index_create(ctx, 1, &(*sum)->entry));
     if (status != OST_SUCCESS)
         ost_block_sum_destroy(sum);
     return status;
@@ -28,9 +27,7 @@ void ost_block_sum_destroy(OstBlockSum **sum)
         return;
     ost_index_destroy(&(*sum)->ghost);
     ost_index_destroy(&(*sum)->entry);
-    for (OstLocal c = 0; c < (*sum)->chunks; c++)
-        OST_FREE((*sum)->chunk[c]);
-    OST_FREE((*sum)->chunk);
+    OST_FREE_EACH((*sum)->chunks, (*sum)->chunk);
     OST_FREE(*sum);
 }
 
@@ -131,8 +128,7 @@ OstStatus ost_block_sum_return(OstBlockSum *sum, OstHalo *halo)
     OstContext *ctx = sum->ctx;
     OstFetchedRows *out = NULL, *in = NULL;
     OstStatus status = ost_fetched_rows_create(ctx, halo->ghosts, BLOCK * sizeof(double), &out);
-    if (status == OST_SUCCESS)
-        status = pack(sum, out);
+    OST_THEN(pack(sum, out));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_OWNERS, out, &in));
     OST_TRY_DONE(ost_agree(ctx, add(sum, halo->send_index, in)));
@@ -245,10 +241,7 @@ OstStatus ost_block_sum_finish(OstBlockSum *sum, OstDoubleMatrix **matrix)
         goto done;
     OST_TRY_DONE(ost_halo_create(ctx, sum->owned, sum->first, list.columns - sum->owned, list.ghost, &(*matrix)->halo));
 done:
-    OST_FREE(list.start);
-    OST_FREE(list.block);
-    OST_FREE(list.renumber);
-    OST_FREE(list.ghost);
+    OST_FREE(list.start, list.block, list.renumber, list.ghost);
     if (status != OST_SUCCESS)
         ost_double_matrix_destroy(matrix);
     return status;

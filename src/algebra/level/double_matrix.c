@@ -23,9 +23,7 @@ OstStatus ost_double_matrix_borrow(const OstBlockMatrix *matrix, const OstScalin
 
 static void free_chunks(OstDoubleMatrix *matrix)
 {
-    for (OstLocal c = 0; c < matrix->chunks; c++)
-        OST_FREE(matrix->chunk[c]);
-    OST_FREE(matrix->chunk);
+    OST_FREE_EACH(matrix->chunks, matrix->chunk);
     OST_FREE(matrix->place);
     matrix->chunks = 0;
 }
@@ -35,9 +33,7 @@ void ost_double_matrix_destroy(OstDoubleMatrix **source)
     if (!*source)
         return;
     if (!(*source)->of) {
-        OST_FREE((*source)->row_start);
-        OST_FREE((*source)->column);
-        OST_FREE((*source)->value);
+        OST_FREE((*source)->row_start, (*source)->column, (*source)->value);
         free_chunks(*source);
         ost_halo_destroy(&(*source)->halo);
     }

@@ -12,9 +12,7 @@ void ost_fetched_rows_destroy(OstFetchedRows **rows)
 {
     if (!*rows)
         return;
-    OST_FREE((*rows)->start);
-    OST_FREE((*rows)->column);
-    OST_FREE((*rows)->value);
+    OST_FREE((*rows)->start, (*rows)->column, (*rows)->value);
     OST_FREE(*rows);
 }
 
@@ -107,10 +105,8 @@ static OstStatus exchange_blocks(OstHalo *halo, const OstLocal *out_row, const O
         in_block = out_block + starts;
         status = find_blocks(halo, out_row, out, out_block);
     }
-    if (status == OST_SUCCESS)
-        status = find_blocks(halo, in_row, in, in_block);
-    if (status == OST_SUCCESS)
-        status = ost_fetched_rows_reserve(in);
+    OST_THEN(find_blocks(halo, in_row, in, in_block));
+    OST_THEN(ost_fetched_rows_reserve(in));
     OST_TRY_DONE(ost_agree(halo->ctx, status));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, sizeof *out->column, out->column, in->column}));
     OST_TRY_DONE(send_parcel(halo, &(Parcel){out_block, in_block, out->block_bytes, out->value, in->value}));

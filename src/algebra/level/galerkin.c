@@ -31,11 +31,7 @@ static void destroy_product(Product *product)
 {
     ost_block_sum_destroy(&product->sum);
     ost_fetched_rows_destroy(&product->far);
-    OST_FREE(product->far_column);
-    OST_FREE(product->place);
-    OST_FREE(product->column);
-    OST_FREE(product->p_column);
-    OST_FREE(product->rows);
+    OST_FREE(product->far_column, product->place, product->column, product->p_column, product->rows);
 }
 
 /* The prolongator's columns appear in the sum first, in their order. `number`: their global numbers. */
@@ -81,8 +77,7 @@ static OstStatus import_rows(Product *product, const OstGlobal *number)
     const size_t bytes = (size_t)(product->p->height * WIDTH) * sizeof(float) * (product->p->rest ? 2 : 1);
     OstFetchedRows *out = NULL;
     OstStatus status = ost_fetched_rows_create(ctx, halo->send_start[halo->neighbour_count], bytes, &out);
-    if (status == OST_SUCCESS)
-        status = pack_rows(product, number, out);
+    OST_THEN(pack_rows(product, number, out));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_fetched_rows_exchange(halo, OST_TO_GHOSTS, out, &product->far));
     const OstLocal blocks = product->far->start[product->far->rows];

@@ -10,13 +10,8 @@ void ost_level_matrix_destroy(OstLevelMatrix **matrix)
 {
     if (!*matrix)
         return;
-    OST_FREE((*matrix)->row_start);
-    OST_FREE((*matrix)->own_end);
-    OST_FREE((*matrix)->column);
-    OST_FREE((*matrix)->diagonal);
-    OST_FREE((*matrix)->value);
-    OST_FREE((*matrix)->diagonal_rest);
-    OST_FREE((*matrix)->value_rest);
+    OST_FREE((*matrix)->row_start, (*matrix)->own_end, (*matrix)->column, (*matrix)->diagonal, (*matrix)->value,
+             (*matrix)->diagonal_rest, (*matrix)->value_rest);
     ost_exchange_destroy(&(*matrix)->exchange);
     OST_FREE(*matrix);
 }
@@ -84,8 +79,7 @@ OstStatus ost_level_matrix_create(const OstDoubleMatrix *source, OstLevelMatrix 
         status = copy_upper_half(source, *matrix);
     }
     status = ost_agree(ctx, status);
-    if (status == OST_SUCCESS)
-        status = ost_exchange_create(source->halo, source->size, &(*matrix)->exchange);
+    OST_THEN(ost_exchange_create(source->halo, source->size, &(*matrix)->exchange));
     if (status != OST_SUCCESS)
         ost_level_matrix_destroy(matrix);
     return status;

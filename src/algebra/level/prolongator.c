@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/level/prolongator.h"
 
-#include "core/error.h"
 #include "core/kernel.h"
 #include "core/memory.h"
 
@@ -11,10 +10,7 @@ void ost_prolongator_destroy(OstProlongator **prolongator)
 {
     if (!*prolongator)
         return;
-    OST_FREE((*prolongator)->row_start);
-    OST_FREE((*prolongator)->column);
-    OST_FREE((*prolongator)->value);
-    OST_FREE((*prolongator)->rest);
+    OST_FREE((*prolongator)->row_start, (*prolongator)->column, (*prolongator)->value, (*prolongator)->rest);
     ost_halo_destroy(&(*prolongator)->halo);
     ost_exchange_destroy(&(*prolongator)->exchange);
     OST_FREE(*prolongator);

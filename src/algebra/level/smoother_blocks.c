@@ -18,10 +18,7 @@ void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
 {
     if (!*blocks)
         return;
-    OST_FREE((*blocks)->node_start);
-    OST_FREE((*blocks)->node);
-    OST_FREE((*blocks)->value_start);
-    OST_FREE((*blocks)->value);
+    OST_FREE((*blocks)->node_start, (*blocks)->node, (*blocks)->value_start, (*blocks)->value);
     OST_FREE(*blocks);
 }
 
@@ -162,8 +159,7 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, int soften, OstSmooth
             value[k] = (float)inverse[k];
     }
 done:
-    OST_FREE(of_node);
-    OST_FREE(dense);
+    OST_FREE(of_node, dense);
     return status;
 }
 
@@ -189,8 +185,7 @@ OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetr
     OstAggregates *groups = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &groups);
-    if (status == OST_SUCCESS)
-        status = ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks);
+    OST_THEN(ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks));
     ost_aggregates_destroy(&groups);
     return status;
 }

@@ -15,10 +15,7 @@ void ost_tentative_destroy(OstTentative **tentative)
 {
     if (!*tentative)
         return;
-    OST_FREE((*tentative)->coarse);
-    OST_FREE((*tentative)->block);
-    OST_FREE((*tentative)->rest);
-    OST_FREE((*tentative)->modes);
+    OST_FREE((*tentative)->coarse, (*tentative)->block, (*tentative)->rest, (*tentative)->modes);
     OST_FREE(*tentative);
 }
 
@@ -101,9 +98,7 @@ static OstStatus make_coarse_nodes(const OstDoubleMatrix *matrix, const OstAggre
     for (OstLocal a = 0; a < aggregates->count; a++)
         make_coarse_node(matrix, modes, a, start[a + 1] - start[a], member + start[a], basis, tentative);
 done:
-    OST_FREE(start);
-    OST_FREE(member);
-    OST_FREE(basis);
+    OST_FREE(start, member, basis);
     return status;
 }
 
@@ -124,8 +119,7 @@ OstStatus ost_tentative_create(const OstDoubleMatrix *matrix, const OstAggregate
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     status = ost_halo_import(matrix->halo, sizeof *made->coarse, made->coarse);
-    if (status == OST_SUCCESS)
-        status = ost_halo_import(matrix->halo, block_bytes, made->block);
+    OST_THEN(ost_halo_import(matrix->halo, block_bytes, made->block));
     OST_TRY_DONE(ost_agree(ctx, status));
 done:
     if (status != OST_SUCCESS)

@@ -14,13 +14,8 @@ void ost_block_matrix_destroy(OstBlockMatrix **matrix)
 {
     if (!*matrix)
         return;
-    OST_FREE((*matrix)->label);
-    OST_FREE((*matrix)->row_start);
-    OST_FREE((*matrix)->column);
-    OST_FREE((*matrix)->diagonal);
-    OST_FREE((*matrix)->value);
-    OST_FREE((*matrix)->upper);
-    OST_FREE((*matrix)->mirror);
+    OST_FREE((*matrix)->label, (*matrix)->row_start, (*matrix)->column, (*matrix)->diagonal, (*matrix)->value,
+             (*matrix)->upper, (*matrix)->mirror);
     ost_halo_destroy(&(*matrix)->halo);
     OST_FREE(*matrix);
 }

@@ -13,8 +13,7 @@ OstStatus ost_compensated_step_create(const OstBlockMatrix *matrix, OstCompensat
     OstContext *ctx = matrix->ctx;
     const size_t n = 3 * (size_t)matrix->rows;
     OstStatus status = OST_NEW(ctx, step, 1);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &(*step)->product, n + 3 * (size_t)matrix->columns);
+    OST_THEN(OST_NEW(ctx, &(*step)->product, n + 3 * (size_t)matrix->columns));
     OST_TRY_DONE(ost_agree(ctx, status));
     (*step)->matrix = matrix;
     (*step)->direction = (*step)->product + n;

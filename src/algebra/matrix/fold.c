@@ -52,9 +52,7 @@ OstStatus ost_block_matrix_fold(OstBlockMatrix *matrix)
     matrix->mirror = mirror;
     upper = mirror = NULL;
 done:
-    OST_FREE(next);
-    OST_FREE(upper);
-    OST_FREE(mirror);
+    OST_FREE(next, upper, mirror);
     return status;
 }
 
@@ -69,9 +67,7 @@ OstStatus ost_block_matrix_unfold(OstBlockMatrix *matrix)
             double room[9];
             memcpy(value + 9 * (size_t)k, ost_block_matrix_block(matrix, row, k, room), sizeof room);
         }
-    OST_FREE(matrix->value);
-    OST_FREE(matrix->upper);
-    OST_FREE(matrix->mirror);
+    OST_FREE(matrix->value, matrix->upper, matrix->mirror);
     matrix->value = value;
     return OST_SUCCESS;
 }

@@ -57,8 +57,7 @@ OstStatus ost_scaling_create(const OstBlockMatrix *matrix, OstScaling **scaling)
     OstScaling *made = NULL;
     *scaling = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->factor, 6 * (size_t)matrix->columns);
+    OST_THEN(OST_NEW(ctx, &made->factor, 6 * (size_t)matrix->columns));
     if (status == OST_SUCCESS) {
         made->ctx = ctx;
         made->rows = matrix->rows;

@@ -21,8 +21,7 @@ void ost_coarsest_destroy(OstCoarsest **coarsest)
 {
     if (!*coarsest)
         return;
-    OST_FREE((*coarsest)->count);
-    OST_FREE((*coarsest)->factor);
+    OST_FREE((*coarsest)->count, (*coarsest)->factor);
     ost_mumps_destroy(&(*coarsest)->sparse);
     OST_FREE(*coarsest);
 }
@@ -77,9 +76,8 @@ static OstStatus gather_rows(OstCoarsest *coarsest)
     MPI_Datatype row;
     OST_TRY(OST_MPI(ctx, MPI_Type_contiguous(coarsest->order, MPI_DOUBLE, &row)));
     OstStatus status = OST_MPI(ctx, MPI_Type_commit(&row));
-    if (status == OST_SUCCESS)
-        status = OST_MPI(ctx, MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, coarsest->factor, coarsest->count,
-                                             coarsest->start, row, ost_comm(ctx)));
+    OST_THEN(OST_MPI(ctx, MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, coarsest->factor, coarsest->count,
+                                         coarsest->start, row, ost_comm(ctx))));
     const OstStatus freed = OST_MPI(ctx, MPI_Type_free(&row));
     return status != OST_SUCCESS ? status : freed;
 }

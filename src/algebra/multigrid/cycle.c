@@ -27,8 +27,7 @@ void ost_cycle_destroy(OstCycle **cycle)
     ost_cycle_columns_destroy(&(*cycle)->columns);
     ost_ml_cycle_destroy(&(*cycle)->ml);
     for (int l = 0; l < (*cycle)->count; l++) {
-        OST_FREE((*cycle)->level[l].own);
-        OST_FREE((*cycle)->level[l].coarse);
+        OST_FREE((*cycle)->level[l].own, (*cycle)->level[l].coarse);
     }
     ost_coarsest_destroy(&(*cycle)->coarsest);
     ost_quadratic_level_destroy(&(*cycle)->quadratic);

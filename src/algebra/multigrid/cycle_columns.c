@@ -39,10 +39,8 @@ void ost_cycle_columns_destroy(OstCycleColumns **columns)
         return;
     ost_ml_cycle_destroy(&(*columns)->ml);
     for (int l = 0; l < (*columns)->count; l++) {
-        OST_FREE((*columns)->level[l].x);
-        OST_FREE((*columns)->level[l].coarse);
-        OST_FREE((*columns)->level[l].of_linear);
-        OST_FREE((*columns)->level[l].one);
+        OST_FREE((*columns)->level[l].x, (*columns)->level[l].coarse, (*columns)->level[l].of_linear,
+                 (*columns)->level[l].one);
     }
     OST_FREE((*columns)->r);
     OST_FREE(*columns);

@@ -41,14 +41,7 @@ static void destroy_group(Group *g)
 {
     if (g->comm != MPI_COMM_NULL)
         MPI_Comm_free(&g->comm);
-    OST_FREE(g->count);
-    OST_FREE(g->length);
-    OST_FREE(g->number);
-    OST_FREE(g->value);
-    OST_FREE(g->modes);
-    OST_FREE(g->place);
-    OST_FREE(g->row_start);
-    OST_FREE(g->order);
+    OST_FREE(g->count, g->length, g->number, g->value, g->modes, g->place, g->row_start, g->order);
     OST_FREE(g->ghost);
 }
 
@@ -121,9 +114,7 @@ static OstStatus bring_nodes(const OstLooseLevel *level, Group *g)
     OST_THEN(bring(g, PLACE * sizeof *place, a->rows, place, (void **)&g->place, &total));
     status = ost_agree(g->ctx, status);
 done:
-    OST_FREE(length);
-    OST_FREE(modes);
-    OST_FREE(place);
+    OST_FREE(length, modes, place);
     return status;
 }
 
@@ -145,8 +136,7 @@ static OstStatus bring_blocks(const OstLooseLevel *level, Group *g)
     OST_THEN(bring(g, BLOCK * sizeof *a->value, blocks, a->value, (void **)&g->value, &g->blocks));
     status = ost_agree(g->ctx, status);
 done:
-    OST_FREE(node);
-    OST_FREE(number);
+    OST_FREE(node, number);
     return status;
 }
 

@@ -117,8 +117,7 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     work->columns = NULL;
     work->by_columns = *aggregates != NULL;
     OstStatus status = *aggregates ? OST_SUCCESS : ost_aggregates_create(graph, &shape, aggregates);
-    if (status == OST_SUCCESS)
-        status = ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]);
+    OST_THEN(ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]));
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
     OST_TRY(ost_sum_numbers(work->ctx, 1, unknowns));
@@ -259,12 +258,9 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
     OstStatus status = ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &levels->coarsest));
     if (status == OST_SUCCESS && options->columns)
         status = find_columns(&work);
-    if (status == OST_SUCCESS)
-        status = create_matrix(&work.options, levels, 0);
-    if (status == OST_SUCCESS)
-        status = adapt_options(levels->graph[0], &work.options);
-    if (status == OST_SUCCESS)
-        status = coarsen(&work);
+    OST_THEN(create_matrix(&work.options, levels, 0));
+    OST_THEN(adapt_options(levels->graph[0], &work.options));
+    OST_THEN(coarsen(&work));
     ost_aggregates_destroy(&work.columns);
     if (status != OST_SUCCESS)
         ost_levels_clear(levels);

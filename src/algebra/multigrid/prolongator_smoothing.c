@@ -24,11 +24,7 @@ typedef struct Smoothing {
 
 static void destroy_smoothing(Smoothing *s)
 {
-    OST_FREE(s->column);
-    OST_FREE(s->block_start);
-    OST_FREE(s->block_column);
-    OST_FREE(s->place);
-    OST_FREE(s->sum);
+    OST_FREE(s->column, s->block_start, s->block_column, s->place, s->sum);
 }
 
 /* Lists the coarse nodes of the fine ghosts, each once, and numbers the coarse column of every fine node. */
@@ -252,8 +248,7 @@ OstStatus ost_tentative_keep(const OstTentative *tentative, const OstDoubleMatri
     OstContext *ctx = matrix->ctx;
     OstProlongator *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status = copy_rows(tentative, matrix, made);
+    OST_THEN(copy_rows(tentative, matrix, made));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_halo_create(ctx, tentative->coarse_nodes, tentative->first_coarse, 0, NULL, &made->halo));
     OST_TRY_DONE(ost_exchange_create(made->halo, OST_MODES, &made->exchange));

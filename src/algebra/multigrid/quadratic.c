@@ -31,10 +31,8 @@ OstStatus ost_quadratic_level_create(const OstBlockMatrix *matrix, const OstMetr
     OstQuadraticLevel *made = NULL;
     smoothing.smoother_degree += MORE_SMOOTHING;
     OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &made->fine, fine + coarse);
-    if (status == OST_SUCCESS)
-        status = ost_double_matrix_borrow(matrix, quadratic, &view);
+    OST_THEN(OST_NEW(ctx, &made->fine, fine + coarse));
+    OST_THEN(ost_double_matrix_borrow(matrix, quadratic, &view));
     OST_TRY_DONE(ost_agree(ctx, status));
     made->space = *space;
     made->quadratic = quadratic;

@@ -34,9 +34,8 @@ OstStatus ost_smoother_create_of(const OstLevelMatrix *matrix, const OstMetricGr
     *smoother = NULL;
     const int soften = options->columns || ost_metric_graph_is_uneven(graph);
     OstStatus status = OST_NEW(ctx, &made, 1);
-    if (status == OST_SUCCESS)
-        status =
-            ost_level_vector_create(ctx, matrix->size, (size_t)matrix->rows + (size_t)matrix->columns, &made->residual);
+    OST_THEN(
+        ost_level_vector_create(ctx, matrix->size, (size_t)matrix->rows + (size_t)matrix->columns, &made->residual));
     if (status == OST_SUCCESS && groups)
         status = ost_smoother_blocks_of(matrix, groups, soften, &made->blocks);
     else if (status == OST_SUCCESS)

@@ -82,8 +82,7 @@ OstStatus ost_exchange_create(const OstHalo *halo, int width, OstExchange **exch
     ML_Comm_Set_Nprocs(made->comm, ost_size(ctx));
     list_numbers(halo, width, owned, ghost, made);
 done:
-    OST_FREE(owned);
-    OST_FREE(ghost);
+    OST_FREE(owned, ghost);
     if (status != OST_SUCCESS)
         ost_exchange_destroy(&made);
     *exchange = made;

@@ -112,8 +112,7 @@ static OstStatus set_matrix(OstSmoothedAggregation *hierarchy)
     ML *ml = hierarchy->ml;
     const int unknowns = 3 * a->rows;
     OstStatus status = check_limits(a);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(a->ctx, &hierarchy->vector, 3 * (size_t)a->columns);
+    OST_THEN(OST_NEW(a->ctx, &hierarchy->vector, 3 * (size_t)a->columns));
     OST_TRY(ost_agree(a->ctx, status));
     ML_Init_Amatrix(ml, FINEST, unknowns, unknowns, hierarchy);
     ML_Set_Amatrix_Getrow(ml, FINEST, get_rows, exchange, 3 * a->columns);

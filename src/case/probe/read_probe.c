@@ -100,8 +100,7 @@ OstStatus ost_read_probes(const OstYaml *yaml, const OstYamlNode *node, int *cou
 void ost_probes_release(int count, OstProbe **probes)
 {
     for (int p = 0; p < count; p++) {
-        OST_FREE((*probes)[p].name);
-        OST_FREE((*probes)[p].points);
+        OST_FREE((*probes)[p].name, (*probes)[p].points);
     }
     OST_FREE(*probes);
 }

@@ -326,8 +326,7 @@ static OstStatus add_key(Setting *setting, const OstYaml *value, const char *wri
     OstYaml *yaml = setting->yaml, *pair = NULL;
     Text text = {.ctx = yaml->ctx};
     OstStatus status = write_pair(setting, value, written, &text);
-    if (status == OST_SUCCESS)
-        status = ost_yaml_parse(yaml->ctx, "--set", text.text, text.length, &pair);
+    OST_THEN(ost_yaml_parse(yaml->ctx, "--set", text.text, text.length, &pair));
     if (status == OST_SUCCESS) {
         const Splice splice = {setting->parent, yaml->node[setting->parent].next, 0, pair, 1};
         status = insert(setting, &splice);
@@ -376,8 +375,7 @@ OstStatus ost_yaml_set(OstYaml *yaml, const char *text)
     snprintf(setting.rest, sizeof setting.rest, "%.*s", (int)(equals - text), text);
     OstStatus status =
         ost_yaml_parse(yaml->ctx, yaml->setting[yaml->settings - 1], equals + 1, strlen(equals + 1), &value);
-    if (status == OST_SUCCESS)
-        status = walk_and_set(&setting, value, equals + 1);
+    OST_THEN(walk_and_set(&setting, value, equals + 1));
     ost_yaml_destroy(&value);
     return status;
 }

@@ -289,11 +289,8 @@ void ost_yaml_destroy(OstYaml **yaml)
 {
     if (!*yaml)
         return;
-    OST_FREE((*yaml)->node);
-    OST_FREE((*yaml)->text);
-    for (int s = 0; s < (*yaml)->settings; s++)
-        OST_FREE((*yaml)->setting[s]);
-    OST_FREE((*yaml)->setting);
+    OST_FREE((*yaml)->node, (*yaml)->text);
+    OST_FREE_EACH((*yaml)->settings, (*yaml)->setting);
     OST_FREE(*yaml);
 }
 

@@ -69,8 +69,7 @@ OstStatus ost_memory_demand(OstContext *ctx, double mine, OstMemoryDemand *deman
     OST_TRY(share_machine(ctx, &machine, &rank));
     double here = free_here(); /* ranks read it at different moments: the least value counts */
     OstStatus status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_SUM, machine));
-    if (status == OST_SUCCESS)
-        status = OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_DOUBLE, MPI_MIN, machine));
+    OST_THEN(OST_MPI(ctx, MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_DOUBLE, MPI_MIN, machine)));
     MPI_Comm_free(&machine);
     OST_TRY(ost_agree(ctx, status));
     struct {

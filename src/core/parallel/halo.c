@@ -30,12 +30,8 @@ void ost_halo_destroy(OstHalo **halo)
 {
     if (!*halo)
         return;
-    OST_FREE((*halo)->neighbour);
-    OST_FREE((*halo)->send_start);
-    OST_FREE((*halo)->send_index);
-    OST_FREE((*halo)->receive_start);
-    OST_FREE((*halo)->buffer);
-    OST_FREE((*halo)->request);
+    OST_FREE((*halo)->neighbour, (*halo)->send_start, (*halo)->send_index, (*halo)->receive_start, (*halo)->buffer,
+             (*halo)->request);
     OST_FREE(*halo);
 }
 
@@ -115,12 +111,9 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     OstHalo *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     *halo = NULL;
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &end, size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &send_count, size);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &receive_count, size);
+    OST_THEN(OST_NEW(ctx, &end, size));
+    OST_THEN(OST_NEW(ctx, &send_count, size));
+    OST_THEN(OST_NEW(ctx, &receive_count, size));
     OST_TRY_DONE(ost_agree(ctx, status));
     made->ctx = ctx;
     made->owned = owned;
@@ -133,9 +126,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
     OST_TRY_DONE(ost_agree(ctx, exchange_requests(made, first_number, ghost_number)));
     OST_TRY_DONE(ost_agree(ctx, reserve_buffer(made)));
 done:
-    OST_FREE(end);
-    OST_FREE(send_count);
-    OST_FREE(receive_count);
+    OST_FREE(end, send_count, receive_count);
     if (status != OST_SUCCESS)
         ost_halo_destroy(&made);
     *halo = made;
@@ -186,11 +177,6 @@ done:
 }
 
 /* Fits an int: reserve_buffer has checked it. */
-static int message_length(OstLocal entries, size_t size)
-{
-    return (int)((size_t)entries * size);
-}
-
 int ost_halo_messages(const OstHalo *halo, const OstLocal *start)
 {
     int messages = 0;
@@ -208,34 +194,37 @@ static OstStatus check_entry(const OstHalo *halo, size_t size)
                      (int)OST_LARGEST_ENTRY, size);
 }
 
+/* Posts the receives, or the sends, of all neighbours: for k the entries from start[k] on, of `size` bytes each. */
+static OstStatus post(OstHalo *halo, int sends, size_t size, const OstLocal *start, char *entries, int *requests)
+{
+    MPI_Comm comm = ost_comm(halo->ctx);
+    for (int k = 0; k < halo->neighbour_count; k++) {
+        const int to = halo->neighbour[k], length = (int)((size_t)(start[k + 1] - start[k]) * size);
+        char *bytes = entries + (size_t)start[k] * size;
+        MPI_Request *request = &halo->request[*requests];
+        if (length == 0)
+            continue;
+        if (sends)
+            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(bytes, length, MPI_BYTE, to, HALO_TAG, comm, request)));
+        else
+            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(bytes, length, MPI_BYTE, to, HALO_TAG, comm, request)));
+        ++*requests;
+    }
+    return OST_SUCCESS;
+}
+
 OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
 {
     const int n = halo->neighbour_count;
     if (n == 0)
         return OST_SUCCESS;
     OST_TRY(check_entry(halo, size));
-    char *bytes = values;
-    char *outgoing = halo->buffer;
-    char *ghosts = bytes + (size_t)halo->owned * size;
-    MPI_Comm comm = ost_comm(halo->ctx);
+    char *bytes = values, *outgoing = halo->buffer;
     int requests = 0;
-    int length = 0;
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->receive_start[k];
-        length = message_length(halo->receive_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(ghosts + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
-                                                 HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 0, size, halo->receive_start, bytes + (size_t)halo->owned * size, &requests));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)
         memcpy(outgoing + (size_t)i * size, bytes + (size_t)halo->send_index[i] * size, size);
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->send_start[k];
-        length = message_length(halo->send_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(outgoing + (size_t)first * size, length, MPI_BYTE, halo->neighbour[k],
-                                                 HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 1, size, halo->send_start, outgoing, &requests));
     ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->send_start), (double)size * halo->send_start[n]);
     return OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
 }
@@ -247,25 +236,11 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
         return OST_SUCCESS;
     const size_t size = (size_t)width * sizeof(double);
     OST_TRY(check_entry(halo, size));
-    double *incoming = halo->buffer;
-    double *ghosts = values + (size_t)halo->owned * (size_t)width;
-    MPI_Comm comm = ost_comm(halo->ctx);
+    const double *incoming = halo->buffer;
     int requests = 0;
-    int length = 0;
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->send_start[k];
-        length = message_length(halo->send_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Irecv(incoming + (size_t)first * (size_t)width, length, MPI_BYTE,
-                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
-    }
-    for (int k = 0; k < n; k++) {
-        const OstLocal first = halo->receive_start[k];
-        length = message_length(halo->receive_start[k + 1] - first, size);
-        if (length > 0)
-            OST_TRY(OST_MPI(halo->ctx, MPI_Isend(ghosts + (size_t)first * (size_t)width, length, MPI_BYTE,
-                                                 halo->neighbour[k], HALO_TAG, comm, &halo->request[requests++])));
-    }
+    OST_TRY(post(halo, 0, size, halo->send_start, halo->buffer, &requests));
+    OST_TRY(
+        post(halo, 1, size, halo->receive_start, (char *)(values + (size_t)halo->owned * (size_t)width), &requests));
     ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->receive_start), (double)size * halo->ghosts);
     OST_TRY(OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)

@@ -27,8 +27,7 @@ static OstStatus route_keys(OstContext *ctx, OstLocal count, const OstKey *key, 
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &to, count));
     for (OstLocal i = 0; status == OST_SUCCESS && i < count; i++)
         to[i] = (int)(ost_scatter((uint64_t)key[i].low + ost_scatter((uint64_t)key[i].high)) % (uint64_t)ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = ost_route_create(ctx, count, 1, to, route);
+    OST_THEN(ost_route_create(ctx, count, 1, to, route));
     OST_FREE(to);
     return status;
 }
@@ -90,8 +89,7 @@ static OstStatus ask(const Meeting *meeting, const char *what, OstLocal count, c
     OST_TRY_DONE(ost_route_answer(route, meeting->size, answer, value));
 done:
     ost_route_destroy(&route);
-    OST_FREE(asked);
-    OST_FREE(answer);
+    OST_FREE(asked, answer);
     return status;
 }
 
@@ -100,14 +98,9 @@ OstStatus ost_rendezvous(OstContext *ctx, const char *what, size_t size, const O
 {
     Meeting meeting = {.ctx = ctx, .size = size};
     OstStatus status = bring(&meeting, known);
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, file(&meeting));
-    if (status == OST_SUCCESS)
-        status = ask(&meeting, what, count, key, value);
+    OST_THEN(ost_agree(ctx, file(&meeting)));
+    OST_THEN(ask(&meeting, what, count, key, value));
     ost_index_destroy(&meeting.index);
-    OST_FREE(meeting.best);
-    OST_FREE(meeting.key);
-    OST_FREE(meeting.order);
-    OST_FREE(meeting.value);
+    OST_FREE(meeting.best, meeting.key, meeting.order, meeting.value);
     return status;
 }

@@ -11,11 +11,8 @@ void ost_route_destroy(OstRoute **route)
 {
     if (!*route)
         return;
-    OST_FREE((*route)->item);
-    OST_FREE((*route)->send_count);
-    OST_FREE((*route)->send_start);
-    OST_FREE((*route)->receive_count);
-    OST_FREE((*route)->receive_start);
+    OST_FREE((*route)->item, (*route)->send_count, (*route)->send_start, (*route)->receive_count,
+             (*route)->receive_start);
     OST_FREE(*route);
 }
 
@@ -111,8 +108,7 @@ OstStatus ost_route_carry(const OstRoute *route, size_t size, const void *values
     char *outgoing = NULL;
     *arrived = NULL;
     OstStatus status = ost_allocate(ctx, (size_t)route->sends, size, (void **)&outgoing);
-    if (status == OST_SUCCESS)
-        status = ost_allocate(ctx, (size_t)route->receives, size, arrived);
+    OST_THEN(ost_allocate(ctx, (size_t)route->receives, size, arrived));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal s = 0; s < route->sends; s++)
         memcpy(outgoing + (size_t)s * size, (const char *)values + (size_t)route->item[s] * size, size);
@@ -129,8 +125,7 @@ OstStatus ost_route_answer(const OstRoute *route, size_t size, const void *answe
     OstContext *ctx = route->ctx;
     char *arrived = NULL;
     OstStatus status = ost_agree(ctx, ost_allocate(ctx, (size_t)route->sends, size, (void **)&arrived));
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, exchange(route, 1, size, answers, arrived));
+    OST_THEN(ost_agree(ctx, exchange(route, 1, size, answers, arrived)));
     for (OstLocal s = 0; status == OST_SUCCESS && s < route->sends; s++)
         memcpy((char *)mine + (size_t)route->item[s] * size, arrived + (size_t)s * size, size);
     OST_FREE(arrived);

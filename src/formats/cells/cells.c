@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FIRST_ROOM = 64 };
+enum { MOST_ITEMS = INT_MAX / 3 * 2 };
 
 const OstCellFacts ost_cell_facts[OST_CELL_KINDS] = {
     [OST_CELL_POINT] = {0, 1},      [OST_CELL_LINE2] = {1, 2},     [OST_CELL_LINE3] = {1, 3},
@@ -32,31 +32,25 @@ OstStatus ost_cells_open(OstContext *ctx, const char *path, OstCells *cells)
 void ost_cells_close(OstCells *cells)
 {
     for (int k = 0; k < OST_CELL_KINDS; k++) {
-        OST_FREE(cells->list[k].nodes);
-        OST_FREE(cells->list[k].label);
-        OST_FREE(cells->list[k].group);
+        OST_FREE(cells->list[k].nodes, cells->list[k].label, cells->list[k].group);
     }
     for (int n = 0; n < cells->name_count; n++)
         OST_FREE(cells->name[n].name);
     for (int s = 0; s < cells->set_count; s++) {
-        OST_FREE(cells->set[s].name);
-        OST_FREE(cells->set[s].item);
+        OST_FREE(cells->set[s].name, cells->set[s].item);
     }
-    OST_FREE(cells->name);
-    OST_FREE(cells->set);
+    OST_FREE(cells->name, cells->set);
     ost_label_index_clear(&cells->nodes);
     ost_label_index_clear(&cells->labels);
     ost_chunk_destroy(&cells->chunk);
 }
 
-OstStatus ost_cells_grow(const OstCells *cells, OstLocal count, OstLocal *room)
+/* Is there a number for one more? */
+static OstStatus check_count(const OstCells *cells, OstLocal count)
 {
-    const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
-    if (grown > INT_MAX)
+    if (count >= MOST_ITEMS)
         return OST_RAISE(cells->ctx, OST_LIMIT_EXCEEDED,
-                         "%s: more than %d nodes or elements, too many for a serial file", cells->path,
-                         INT_MAX / 3 * 2);
-    *room = (OstLocal)grown;
+                         "%s: more than %d nodes or elements, too many for a serial file", cells->path, MOST_ITEMS);
     return OST_SUCCESS;
 }
 
@@ -72,11 +66,9 @@ OstStatus ost_cells_add_node(OstCells *cells, OstGlobal label, const double x[3]
 {
     OstMeshChunk *chunk = cells->chunk;
     OST_TRY(check_label(cells, "node", label));
-    if (chunk->node_count == cells->node_room) {
-        OST_TRY(ost_cells_grow(cells, chunk->node_count, &cells->node_room));
-        OST_TRY(OST_RESIZE(cells->ctx, &chunk->node_label, cells->node_room));
-        OST_TRY(OST_RESIZE(cells->ctx, &chunk->coordinates, 3 * (size_t)cells->node_room));
-    }
+    OST_TRY(check_count(cells, chunk->node_count));
+    OST_TRY(OST_GROW(cells->ctx, &chunk->node_label, chunk->node_count + 1));
+    OST_TRY(OST_GROW(cells->ctx, &chunk->coordinates, 3 * (size_t)(chunk->node_count + 1)));
     chunk->node_label[chunk->node_count] = label;
     memcpy(chunk->coordinates + 3 * (size_t)chunk->node_count++, x, 3 * sizeof *x);
     return OST_SUCCESS;
@@ -87,12 +79,10 @@ OstStatus ost_cells_add(OstCells *cells, OstCellKind kind, OstGlobal label, OstG
     OstCellList *list = &cells->list[kind];
     const size_t width = (size_t)ost_cell_facts[kind].nodes;
     OST_TRY(check_label(cells, "element", label));
-    if (list->count == list->room) {
-        OST_TRY(ost_cells_grow(cells, list->count, &list->room));
-        OST_TRY(OST_RESIZE(cells->ctx, &list->nodes, (size_t)list->room * width));
-        OST_TRY(OST_RESIZE(cells->ctx, &list->label, list->room));
-        OST_TRY(OST_RESIZE(cells->ctx, &list->group, list->room));
-    }
+    OST_TRY(check_count(cells, list->count));
+    OST_TRY(OST_GROW(cells->ctx, &list->nodes, (size_t)(list->count + 1) * width));
+    OST_TRY(OST_GROW(cells->ctx, &list->label, list->count + 1));
+    OST_TRY(OST_GROW(cells->ctx, &list->group, list->count + 1));
     memcpy(list->nodes + (size_t)list->count * width, nodes, width * sizeof *nodes);
     list->label[list->count] = label;
     list->group[list->count++] = group;
@@ -139,10 +129,8 @@ OstStatus ost_cells_set(OstCells *cells, OstSetKind kind, const char *name, int 
 OstStatus ost_cells_put(OstCells *cells, int set, OstGlobal item)
 {
     OstCellSet *into = &cells->set[set];
-    if (into->count == into->room) {
-        OST_TRY(ost_cells_grow(cells, into->count, &into->room));
-        OST_TRY(OST_RESIZE(cells->ctx, &into->item, into->room));
-    }
+    OST_TRY(check_count(cells, into->count));
+    OST_TRY(OST_GROW(cells->ctx, &into->item, into->count + 1));
     into->item[into->count++] = item;
     return OST_SUCCESS;
 }

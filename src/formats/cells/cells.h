@@ -40,7 +40,7 @@ extern const OstCellFacts ost_cell_facts[OST_CELL_KINDS];
 
 /* All cells of a kind. */
 typedef struct OstCellList {
-    OstLocal count, room;
+    OstLocal count;
     OstGlobal *nodes; /* count × nodes: labels */
     OstGlobal *label;
     OstGlobal *group; /* a number, or OST_NO_GROUP */
@@ -60,7 +60,7 @@ typedef struct OstCellSet {
     OstSetKind kind;
     char *name;
     int is_region; /* of cells: may be a region if it holds tets; else it only bounds */
-    OstLocal count, room;
+    OstLocal count;
     OstGlobal *item; /* labels; of faces: as ost_cell_face makes them; of sides: 4 × the tet's position + the vertex
                         opposite */
 } OstCellSet;
@@ -78,7 +78,6 @@ typedef struct OstCells {
     OstContext *ctx;
     const char *path; /* for messages; the caller's */
     OstMeshChunk *chunk;
-    OstLocal node_room;
     OstCellList list[OST_CELL_KINDS];
     int name_count;
     OstCellName *name;
@@ -144,8 +143,5 @@ void ost_cell_face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, Ost
 
 /* Local. Where a cell is, by its label: its kind and position, or a kind of OST_CELL_KINDS. */
 OstCellKind ost_cells_find(const OstCells *cells, OstGlobal label, OstLocal *position);
-
-/* Local. Grows an array's room by half once `count` has reached it. */
-OstStatus ost_cells_grow(const OstCells *cells, OstLocal count, OstLocal *room);
 
 #endif

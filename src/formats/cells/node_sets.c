@@ -12,8 +12,7 @@
 
 /* Faces all of whose nodes are in some set. */
 typedef struct Faces {
-    OstIndex *index; /* by their vertices */
-    OstLocal room;
+    OstIndex *index;   /* by their vertices */
     OstGlobal *side;   /* of each: 4 × the tet's position + the vertex opposite; -1: between two tets */
     unsigned char *in; /* of each node: is it in the set at hand, and on a face of it? */
 } Faces;
@@ -71,10 +70,7 @@ static OstStatus add_face(const OstCells *cells, const OstGlobal *face, OstGloba
     const OstLocal before = faces->index->count;
     sort3(key);
     OST_TRY(ost_index_place(faces->index, key, &place));
-    if (place == faces->room) {
-        OST_TRY(ost_cells_grow(cells, place, &faces->room));
-        OST_TRY(OST_RESIZE(cells->ctx, &faces->side, faces->room));
-    }
+    OST_TRY(OST_GROW(cells->ctx, &faces->side, (size_t)place + 1));
     faces->side[place] = place == before ? side : -1;
     return OST_SUCCESS;
 }
@@ -122,7 +118,7 @@ static OstStatus cover(OstCells *cells, int s, OstCellKind tets, Faces *faces)
         covered &= faces->in[n] != WITHIN;
     if (covered) {
         OST_FREE(set->item);
-        *set = (OstCellSet){.kind = OST_SET_OF_SIDES, .name = set->name, .count = count, .room = count, .item = side};
+        *set = (OstCellSet){.kind = OST_SET_OF_SIDES, .name = set->name, .count = count, .item = side};
         return OST_SUCCESS;
     }
     OST_FREE(side);
@@ -155,7 +151,6 @@ OstStatus ost_cells_cover_faces(OstCells *cells, OstCellKind tets)
         return OST_SUCCESS;
     const OstStatus status = cover_all(cells, tets, &faces);
     ost_index_destroy(&faces.index);
-    OST_FREE(faces.side);
-    OST_FREE(faces.in);
+    OST_FREE(faces.side, faces.in);
     return status;
 }

@@ -2,7 +2,6 @@
 #include "core/error.h"
 #include "formats/cells/shapes.h"
 
-#include <inttypes.h>
 #include <string.h>
 
 /* The middles of a straight cell's edges and faces, and its own, from its vertices. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "formats/cells/cells.h"
 
 #include <inttypes.h>
@@ -20,12 +21,6 @@ typedef struct Candidate {
     OstLocal tets;
     int order; /* as the file has them */
 } Candidate;
-
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a, y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
 
 /* The most tets first; of as many, what the file has last comes last, and so counts: sets that the user made follow
  * those of the program. */
@@ -57,7 +52,7 @@ static OstStatus list_groups(const OstCells *cells, OstCellKind tets, int *count
     OstGlobal *group = NULL;
     OST_TRY(OST_NEW(cells->ctx, &group, all->count));
     memcpy(group, all->group, (size_t)all->count * sizeof *group);
-    qsort(group, (size_t)all->count, sizeof *group, compare_numbers);
+    qsort(group, (size_t)all->count, sizeof *group, ost_compare_numbers);
     OstStatus status = OST_SUCCESS;
     for (OstLocal i = 0, next; i < all->count && status == OST_SUCCESS; i = next) {
         for (next = i + 1; next < all->count && group[next] == group[i];)
@@ -240,8 +235,6 @@ OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets)
                  cells->path, shared);
     OST_TRY_DONE(name_regions(cells, &all, tet_count, cells->chunk->tet_region));
 done:
-    OST_FREE(all.list);
-    OST_FREE(all.place);
-    OST_FREE(several);
+    OST_FREE(all.list, all.place, several);
     return status;
 }

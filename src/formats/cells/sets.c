@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "core/memory.h"
 #include "formats/cells/cells.h"
 
 #include <stdlib.h>

@@ -16,7 +16,7 @@ static const double straight_share = 1e-5;
 
 void ost_split_open(OstMeshChunk *chunk, const char *path, OstSplit *split)
 {
-    *split = (OstSplit){.chunk = chunk, .path = path, .node_room = chunk->node_count};
+    *split = (OstSplit){.chunk = chunk, .path = path};
 }
 
 void ost_split_close(OstSplit *split)
@@ -262,11 +262,8 @@ static OstStatus add_node(OstSplit *split, const double x[3], OstGlobal *node)
         return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED,
                          "%s: its nodes are too many, or their numbers too large, for nodes in the middle of diagonals",
                          split->path);
-    if (chunk->node_count == split->node_room) {
-        split->node_room += split->node_room / 2 + 64;
-        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->node_label, split->node_room));
-        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->coordinates, 3 * (size_t)split->node_room));
-    }
+    OST_TRY(OST_GROW(chunk->ctx, &chunk->node_label, chunk->node_count + 1));
+    OST_TRY(OST_GROW(chunk->ctx, &chunk->coordinates, 3 * (size_t)(chunk->node_count + 1)));
     chunk->node_label[chunk->node_count] = split->next_label++;
     memcpy(chunk->coordinates + 3 * (size_t)chunk->node_count, x, 3 * sizeof *x);
     *node = chunk->node_count++;
@@ -298,10 +295,7 @@ static OstStatus diagonal_middle(OstSplit *split, const Cell *cell, OstGlobal a,
         OST_TRY(ost_index_create(ctx, 2, &split->diagonals));
     const OstLocal before = split->diagonals->count;
     OST_TRY(ost_index_place(split->diagonals, (OstGlobal[]){a < b ? a : b, a < b ? b : a}, &place));
-    if (place == split->middle_room) {
-        split->middle_room += split->middle_room / 2 + 64;
-        OST_TRY(OST_RESIZE(ctx, &split->middle, split->middle_room));
-    }
+    OST_TRY(OST_GROW(ctx, &split->middle, (size_t)place + 1));
     if (place == before) {
         OST_TRY(new_middle(split, cell, face_across(cell, a, b), a, b, node));
         split->middle[place] = (OstLocal)*node;

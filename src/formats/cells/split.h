@@ -14,10 +14,8 @@
 typedef struct OstSplit {
     OstMeshChunk *chunk; /* whose nodes the cells have; it gets those in the middle of diagonals */
     const char *path;
-    OstLocal node_room;
     OstGlobal next_label;
-    OstIndex *diagonals; /* by the nodes at their ends; NULL: none yet */
-    OstLocal middle_room;
+    OstIndex *diagonals;             /* by the nodes at their ends; NULL: none yet */
     OstLocal *middle;                /* of each diagonal */
     OstGlobal cells[OST_CELL_KINDS]; /* that were split */
     OstGlobal tets;                  /* that solids were split into */

@@ -99,7 +99,7 @@ static OstStatus split_set(OstCells *cells, int number)
     const int faces = set->kind == OST_SET_OF_FACES;
     OstStatus status = OST_SUCCESS;
     set->item = NULL;
-    set->count = set->room = 0;
+    set->count = 0;
     for (OstLocal i = 0; i < count && status == OST_SUCCESS; i++)
         status = faces ? put_faces(cells, number, item[i]) : put_pieces(cells, number, item[i]);
     OST_FREE(item);
@@ -140,10 +140,8 @@ static OstStatus split_list(OstCells *cells, OstSplit *split, OstCellKind kind)
             OST_TRY(ost_cells_add(cells, piece[kind < OST_CELL_QUAD4][quadratic], piece_label(list->label[i], p),
                                   list->group[i], pieces.nodes[p]));
     }
-    OST_FREE(list->nodes);
-    OST_FREE(list->label);
-    OST_FREE(list->group);
-    list->count = list->room = 0;
+    OST_FREE(list->nodes, list->label, list->group);
+    list->count = 0;
     return OST_SUCCESS;
 }
 

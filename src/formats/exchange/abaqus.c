@@ -2,7 +2,6 @@
 #include "formats/exchange/abaqus.h"
 
 #include "core/error.h"
-#include "core/memory.h"
 #include "formats/exchange/exchange.h"
 
 #include <ctype.h>

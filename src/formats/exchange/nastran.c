@@ -19,7 +19,7 @@
  * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
  * boundary, and so does each set of constraints. */
 
-enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, FIRST_FIELDS = 16, MOST_NODES = 20, MOST_INCLUDES = 8 };
+enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, MOST_NODES = 20, MOST_INCLUDES = 8 };
 
 typedef struct Placed {
     OstGlobal label, system;
@@ -30,11 +30,11 @@ typedef struct Nastran {
     OstMshCursor cursor;
     OstCells cells;
     char name[NAME]; /* of the present card, in capitals; "" before the first */
-    int fields, room;
+    int fields;
     char (*field)[FIELD];
     const char *line; /* where the card begins */
     OstNastranSystems systems;
-    OstLocal placed, placed_room; /* nodes that wait for their coordinate system, which may stand behind them */
+    OstLocal placed; /* nodes that wait for their coordinate system, which may stand behind them */
     Placed *place;
     int depth;                /* of INCLUDE */
     OstGlobal default_system; /* of GRDSET */
@@ -55,10 +55,7 @@ static OstStatus add_field(Nastran *nastran, const char *text, size_t length)
         text = "(too long)";
         length = strlen(text);
     }
-    if (nastran->fields == nastran->room) {
-        nastran->room = nastran->room ? 2 * nastran->room : FIRST_FIELDS;
-        OST_TRY(OST_RESIZE(nastran->cursor.ctx, &nastran->field, nastran->room));
-    }
+    OST_TRY(OST_GROW(nastran->cursor.ctx, &nastran->field, nastran->fields + 1));
     memcpy(nastran->field[nastran->fields], text, length);
     nastran->field[nastran->fields++][length] = '\0';
     return OST_SUCCESS;
@@ -164,10 +161,7 @@ static OstStatus read_grid(Nastran *nastran)
     OST_TRY(take_reals(nastran, "a coordinate", 2, 3, x));
     if (system == 0)
         return ost_cells_add_node(&nastran->cells, label, x);
-    if (nastran->placed == nastran->placed_room) {
-        nastran->placed_room = 2 * nastran->placed_room + FIRST_FIELDS;
-        OST_TRY(OST_RESIZE(nastran->cursor.ctx, &nastran->place, nastran->placed_room));
-    }
+    OST_TRY(OST_GROW(nastran->cursor.ctx, &nastran->place, nastran->placed + 1));
     nastran->place[nastran->placed++] = (Placed){label, system, {x[0], x[1], x[2]}};
     return OST_SUCCESS;
 }
@@ -442,9 +436,7 @@ OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chu
     OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
     OST_THEN(read_lines(&nastran));
     OST_THEN(place_nodes(&nastran));
-    OST_FREE(nastran.field);
-    OST_FREE(nastran.systems.system);
-    OST_FREE(nastran.place);
+    OST_FREE(nastran.field, nastran.systems.system, nastran.place);
     ost_msh_close(&nastran.cursor);
     OST_THEN(ost_cells_finish(&nastran.cells, chunk));
     ost_cells_close(&nastran.cells);

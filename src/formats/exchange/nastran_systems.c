@@ -13,10 +13,7 @@ static const double degree = 3.14159265358979323846 / 180.0;
 
 OstStatus ost_nastran_system_add(OstMshCursor *cursor, OstNastranSystems *systems, OstNastranSystem **added)
 {
-    if (systems->count == systems->room) {
-        systems->room = systems->room ? 2 * systems->room : 8;
-        OST_TRY(OST_RESIZE(cursor->ctx, &systems->system, systems->room));
-    }
+    OST_TRY(OST_GROW(cursor->ctx, &systems->system, systems->count + 1));
     *added = &systems->system[systems->count++];
     **added = (OstNastranSystem){0};
     return OST_SUCCESS;

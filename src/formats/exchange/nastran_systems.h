@@ -15,7 +15,7 @@ typedef struct OstNastranSystem {
 } OstNastranSystem;
 
 typedef struct OstNastranSystems {
-    int count, room;
+    int count;
     OstNastranSystem *system;
 } OstNastranSystems;
 

@@ -7,7 +7,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 /* I-deas's universal files: data sets between lines of -1, the first line of each its number. Read are nodes (15, 781,
  * 2411), elements (780, 2412) and groups (2429 to 2477). */

@@ -5,7 +5,6 @@
 #include "formats/exodus/file.h"
 #include "formats/exodus/parts.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -4,9 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 
-#include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 #include <strings.h>
 
 /* Where Exodus' nodes of quadratic hexahedra and wedges go: it has the middles of upright edges before those of the
@@ -208,7 +206,5 @@ OstStatus ost_exodus_open(OstContext *ctx, const char *path, int parts, int dry,
 void ost_exodus_close(OstExodus *exodus)
 {
     ost_netcdf_close(&exodus->nc);
-    OST_FREE(exodus->node_label);
-    OST_FREE(exodus->element_label);
-    OST_FREE(exodus->block);
+    OST_FREE(exodus->node_label, exodus->element_label, exodus->block);
 }

@@ -91,7 +91,5 @@ OstStatus ost_exodus_parts_find(OstContext *ctx, const char *path, OstExodusPart
 
 void ost_exodus_parts_free(OstExodusParts *parts)
 {
-    for (int p = 0; p < parts->count; p++)
-        OST_FREE(parts->path[p]);
-    OST_FREE(parts->path);
+    OST_FREE_EACH(parts->count, parts->path);
 }

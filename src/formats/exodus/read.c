@@ -158,8 +158,7 @@ static OstStatus join_nodes(OstCells *cells)
     if (status == OST_SUCCESS && kept > 0)
         memcpy(chunk->coordinates, x, 3 * (size_t)kept * sizeof *x);
     chunk->node_count = kept;
-    OST_FREE(place);
-    OST_FREE(x);
+    OST_FREE(place, x);
     return status;
 }
 

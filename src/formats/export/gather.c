@@ -131,8 +131,7 @@ static OstStatus order_nodes(OstMeshChunk *whole)
         for (size_t i = 0; i < (size_t)boundary->count * (size_t)boundary->nodes_per_item; i++)
             boundary->nodes[i] = place[boundary->nodes[i]];
     }
-    OST_FREE(place);
-    OST_FREE(item);
+    OST_FREE(place, item);
     return status;
 }
 
@@ -167,8 +166,7 @@ static OstStatus order_tets(OstMeshChunk *whole)
                      (void **)&whole->tet_nodes));
     OST_THEN(reorder(ctx, whole->tet_count, item, sizeof(OstGlobal), (void **)&whole->tet_label));
     OST_THEN(reorder(ctx, whole->tet_count, item, sizeof(int32_t), (void **)&whole->tet_region));
-    OST_FREE(place);
-    OST_FREE(item);
+    OST_FREE(place, item);
     return status;
 }
 

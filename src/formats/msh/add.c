@@ -12,7 +12,7 @@
 
 /* An element may be in several groups. Limits groups times elements by the size of the file: SMALLEST_SHARE bytes for
  * each. */
-enum { FIRST_ROOM = 64, SMALLEST_SHARE = 4 };
+enum { MOST_ELEMENTS = INT_MAX / 3 * 2, SMALLEST_SHARE = 4 };
 
 static const char point[] = "Point", line[] = "Line", triangle[] = "Triangle", quad[] = "Quadrilateral",
                   tet[] = "Tetrahedron", hex[] = "Hexahedron", prism[] = "Prism", pyramid[] = "Pyramid";
@@ -64,15 +64,13 @@ OstStatus ost_msh_index_nodes(OstMsh *msh)
                      msh->nodes.repeated_label);
 }
 
-/* Grows room by half. */
-static OstStatus grow(const OstMsh *msh, OstLocal count, OstLocal *room)
+/* Is there a number for one more? */
+static OstStatus check_count(const OstMsh *msh, OstLocal count)
 {
-    const OstGlobal grown = (OstGlobal)count + count / 2 + FIRST_ROOM;
-    if (grown > INT_MAX)
+    if (count >= MOST_ELEMENTS)
         return OST_RAISE(msh->cursor.ctx, OST_LIMIT_EXCEEDED,
                          "%s: more than %d elements of a kind, too many to be read from a .msh file", msh->cursor.path,
-                         INT_MAX / 3 * 2);
-    *room = (OstLocal)grown;
+                         MOST_ELEMENTS);
     return OST_SUCCESS;
 }
 
@@ -119,12 +117,10 @@ static OstStatus add_tet(OstMsh *msh, int width, OstGlobal label, int group, Ost
     OstMeshChunk *chunk = msh->chunk;
     const OstLocal t = chunk->tet_count;
     OstMshGroup *region = NULL;
-    if (t == msh->room) {
-        OST_TRY(grow(msh, t, &msh->room));
-        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_nodes, (size_t)msh->room * (size_t)width));
-        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_label, msh->room));
-        OST_TRY(OST_RESIZE(chunk->ctx, &chunk->tet_region, msh->room));
-    }
+    OST_TRY(check_count(msh, t));
+    OST_TRY(OST_GROW(chunk->ctx, &chunk->tet_nodes, (size_t)(t + 1) * (size_t)width));
+    OST_TRY(OST_GROW(chunk->ctx, &chunk->tet_label, t + 1));
+    OST_TRY(OST_GROW(chunk->ctx, &chunk->tet_region, t + 1));
     if (t == 0 || group != chunk->tet_region[t - 1])
         OST_TRY(ost_msh_group(msh, 3, group, &region));
     chunk->tet_label[t] = label;
@@ -214,10 +210,8 @@ static OstStatus add_item(OstMsh *msh, int type, int shape, const OstGlobal *pos
         group->other_type = type;
         return OST_SUCCESS;
     }
-    if (group->count == group->room) {
-        OST_TRY(grow(msh, group->count, &group->room));
-        OST_TRY(OST_RESIZE(msh->cursor.ctx, &group->nodes, (size_t)group->room * (size_t)facts->nodes));
-    }
+    OST_TRY(check_count(msh, group->count));
+    OST_TRY(OST_GROW(msh->cursor.ctx, &group->nodes, (size_t)(group->count + 1) * (size_t)facts->nodes));
     memcpy(group->nodes + (size_t)group->count++ * (size_t)facts->nodes, positions,
            (size_t)facts->nodes * sizeof *positions);
     return OST_SUCCESS;

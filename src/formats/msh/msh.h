@@ -54,7 +54,7 @@ typedef struct OstMshGroup {
     int number;           /* of its region or boundary; -1 at first */
     int type, other_type; /* of the first element; of one of another type, or 0 */
     int quad;             /* that of quadrilaterals, which are triangles here; or 0 */
-    OstLocal count, room;
+    OstLocal count;
     OstGlobal *nodes; /* count × nodes of the type: positions in the chunk */
 } OstMshGroup;
 
@@ -75,7 +75,6 @@ typedef struct OstMsh {
     OstMeshChunk *chunk;
     OstLabelIndex nodes;           /* tag to position, once all are read */
     OstGlobal elements;            /* number that the file states */
-    OstLocal room;                 /* capacity for tets */
     OstGlobal read[OST_MSH_TYPES]; /* elements of each type */
     int tet_type;                  /* of the first tet */
     int tets_out_of_order;         /* their tags do not ascend */

@@ -231,11 +231,7 @@ static void close_msh(OstMsh *msh)
 {
     for (int g = 0; g < msh->group_count; g++)
         OST_FREE(msh->group[g].nodes);
-    OST_FREE(msh->name);
-    OST_FREE(msh->group);
-    OST_FREE(msh->entity);
-    OST_FREE(msh->entity_start);
-    OST_FREE(msh->entity_group);
+    OST_FREE(msh->name, msh->group, msh->entity, msh->entity_start, msh->entity_group);
     ost_split_close(&msh->split);
     ost_label_index_clear(&msh->nodes);
     ost_label_index_clear(&msh->entities);

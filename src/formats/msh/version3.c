@@ -2,8 +2,6 @@
 #include "core/error.h"
 #include "formats/msh/msh.h"
 
-#include <inttypes.h>
-
 /* Nodes and elements of .msh files of version 3, which no manual describes: Gmsh writes and reads it (-format msh3).
  * Counts are lines of text in the binary form too. */
 

@@ -3,15 +3,9 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <stdlib.h>
-
-static int compare_labels(const void *a, const void *b)
-{
-    const OstGlobal x = ((const OstLabelledPosition *)a)->label;
-    const OstGlobal y = ((const OstLabelledPosition *)b)->label;
-    return (x > y) - (x < y);
-}
 
 static int counts_up(OstGlobal count, const OstGlobal *label)
 {
@@ -29,7 +23,7 @@ OstStatus ost_label_index_create(OstContext *ctx, OstGlobal count, const OstGlob
     OST_TRY(OST_NEW(ctx, &index->sorted, count));
     for (OstGlobal i = 0; i < count; i++)
         index->sorted[i] = (OstLabelledPosition){label[i], i};
-    qsort(index->sorted, (size_t)count, sizeof *index->sorted, compare_labels);
+    qsort(index->sorted, (size_t)count, sizeof *index->sorted, ost_compare_numbers);
     for (OstGlobal i = 1; i < count && !index->repeated; i++)
         if (index->sorted[i].label == index->sorted[i - 1].label) {
             index->repeated = 1;
@@ -50,6 +44,6 @@ OstGlobal ost_label_index_find(const OstLabelIndex *index, OstGlobal label)
         return label >= index->first && label - index->first < index->count ? label - index->first : -1;
     const OstLabelledPosition wanted = {label, 0};
     const OstLabelledPosition *found =
-        bsearch(&wanted, index->sorted, (size_t)index->count, sizeof wanted, compare_labels);
+        bsearch(&wanted, index->sorted, (size_t)index->count, sizeof wanted, ost_compare_numbers);
     return found ? found->position : -1;
 }

@@ -46,8 +46,7 @@ void ost_lines_close(OstLineReader *reader)
     if (reader->file)
         fclose(reader->file);
     reader->file = NULL;
-    OST_FREE(reader->path);
-    OST_FREE(reader->text);
+    OST_FREE(reader->path, reader->text);
 }
 
 OstStatus ost_lines_raise(const OstLineReader *reader, const char *file, int line, const char *format, ...)

@@ -145,7 +145,6 @@ OstStatus ost_tets_join_same(OstMeshChunk *chunk, const char *path)
     qsort(set, (size_t)chunk->tet_count, sizeof *set, compare_sets);
     OST_TRY_DONE(join_sets(chunk, path, set, count));
 done:
-    OST_FREE(set);
-    OST_FREE(count);
+    OST_FREE(set, count);
     return status;
 }

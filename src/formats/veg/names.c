@@ -20,8 +20,7 @@ static int compare_entries(const void *a, const void *b)
 
 static void free_entry(void *entry)
 {
-    OST_FREE(((Entry *)entry)->name);
-    OST_FREE(entry);
+    OST_FREE(((Entry *)entry)->name, entry);
 }
 
 OstStatus ost_veg_names_add(OstVeg *veg, OstVegNames *names, const char *what, const char *name)

@@ -63,16 +63,10 @@ void ost_veg_close(OstVeg *veg)
         ost_lines_close(&veg->reader[i]);
     for (int s = 0; veg->set && s < veg->set_names.count; s++)
         OST_FREE(veg->set[s].name);
-    OST_FREE(veg->set);
-    OST_FREE(veg->set_elements);
+    OST_FREE(veg->set, veg->set_elements);
     ost_veg_names_clear(&veg->set_names);
     ost_veg_names_clear(&veg->material_names);
-    OST_FREE(veg->material);
-    OST_FREE(veg->axes);
-    OST_FREE(veg->coordinates);
-    OST_FREE(veg->vertex_id);
-    OST_FREE(veg->element_vertices);
-    OST_FREE(veg->element_id);
+    OST_FREE(veg->material, veg->axes, veg->coordinates, veg->vertex_id, veg->element_vertices, veg->element_id);
     ost_label_index_clear(&veg->vertices);
     ost_label_index_clear(&veg->elements);
 }

@@ -34,12 +34,9 @@ static OstStatus add_element(OstVeg *veg, OstVegSet *set, OstGlobal id)
         return OST_RAISE_LINE(ost_veg_reader(veg),
                               "set '%s' lists element %" PRId64 ", which is not among the %" PRId64 " of *ELEMENTS",
                               set->name, id, veg->element_count);
-    if (veg->set_used == veg->set_capacity) {
-        if (veg->set_capacity > INT_MAX / 2)
-            return OST_RAISE_LINE(ost_veg_reader(veg), "the sets list more than %d elements", INT_MAX / 2);
-        OST_TRY(OST_RESIZE(veg->ctx, &veg->set_elements, 2 * veg->set_capacity + 16));
-        veg->set_capacity = 2 * veg->set_capacity + 16;
-    }
+    if (veg->set_used == INT_MAX / 2)
+        return OST_RAISE_LINE(ost_veg_reader(veg), "the sets list more than %d elements", INT_MAX / 2);
+    OST_TRY(OST_GROW(veg->ctx, &veg->set_elements, veg->set_used + 1));
     veg->set_elements[veg->set_used++] = (OstLocal)element;
     set->count++;
     return OST_SUCCESS;

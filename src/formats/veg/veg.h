@@ -48,7 +48,7 @@ typedef struct OstVeg {
     OstVegNames set_names;
     OstVegSet *set;
     OstLocal *set_elements;
-    OstLocal set_used, set_capacity;
+    OstLocal set_used;
 
     int region_count;
 } OstVeg;

@@ -72,12 +72,7 @@ void ost_vtk_clear(OstVtkGrid *grid)
 {
     for (int a = 0; a < grid->array_count; a++)
         OST_FREE(grid->array[a].values);
-    OST_FREE(grid->array);
-    OST_FREE(grid->name);
-    OST_FREE(grid->coordinates);
-    OST_FREE(grid->end);
-    OST_FREE(grid->connectivity);
-    OST_FREE(grid->type);
+    OST_FREE(grid->array, grid->name, grid->coordinates, grid->end, grid->connectivity, grid->type);
 }
 
 const char *ost_vtk_region_name(int number)

@@ -10,7 +10,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 /* VTKHDF files of other programs that hold other cells than tets. Files of tets alone, and those of Orthostat, are read
  * by all ranks (formats/vtkhdf). */
@@ -131,9 +130,7 @@ static OstStatus read_all(const OstHdf5 *h5, OstVtkGrid *grid)
         OST_THEN(take_array(h5, grid, on_points, grid->wanted));
     for (int n = 0; ost_vtk_region_name(n) && !grid->wanted; n++)
         OST_THEN(take_array(h5, grid, 0, ost_vtk_region_name(n)));
-    OST_FREE(pieces.points);
-    OST_FREE(pieces.cells);
-    OST_FREE(pieces.connections);
+    OST_FREE(pieces.points, pieces.cells, pieces.connections);
     return status;
 }
 

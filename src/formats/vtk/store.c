@@ -178,8 +178,7 @@ static OstStatus get_compressed(const Bytes *from, OstGlobal *length, char **dat
     OST_TRY_DONE(OST_NEW(ctx, data, *length));
     status = unpack(from, header, packed + (3 + blocks) * bytes_each, *data);
 done:
-    OST_FREE(header);
-    OST_FREE(packed);
+    OST_FREE(header, packed);
     if (status != OST_SUCCESS)
         OST_FREE(*data);
     return status;
@@ -233,8 +232,8 @@ static OstStatus from_bytes(const Bytes *from, OstVtkType type, OstGlobal *count
 /* Numbers between blanks, up to the next tag. */
 static OstStatus from_text(OstMshCursor *cursor, OstGlobal *count, double **values)
 {
-    OstGlobal found = 0, room = 64;
-    OST_TRY(OST_NEW(cursor->ctx, values, room));
+    OstGlobal found = 0;
+    OST_TRY(OST_NEW(cursor->ctx, values, 64));
     for (const char *at = cursor->next;;) {
         char *end = NULL;
         while (at < cursor->end && strchr(" \t\r\n", *at) && *at)
@@ -245,8 +244,7 @@ static OstStatus from_text(OstMshCursor *cursor, OstGlobal *count, double **valu
         const double value = strtod(at, &end);
         if (end == at || (*end != '<' && (*end == '\0' || !strchr(" \t\r\n", *end))))
             return OST_RAISE_MSH(cursor, "'%.*s' found, expected a number", (int)strcspn(at, " \t\r\n<") & 63, at);
-        if (found == room)
-            OST_TRY(OST_RESIZE(cursor->ctx, values, room += room / 2));
+        OST_TRY(OST_GROW(cursor->ctx, values, found + 1));
         (*values)[found++] = value;
         at = end;
     }

@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -86,8 +86,7 @@ static OstStatus write_boundaries(OstHdf5 *h5, const OstMesh *mesh)
     OST_TRY_DONE(ost_hdf5_write_rows(h5, boundary_kinds, H5T_NATIVE_INT32, 2, &rows, kinds));
     OST_TRY_DONE(write_items(h5, mesh));
 done:
-    OST_FREE(names);
-    OST_FREE(kinds);
+    OST_FREE(names, kinds);
     return status;
 }
 
@@ -138,9 +137,7 @@ static OstStatus read_kinds(const OstHdf5 *h5, OstMeshChunk *chunk)
         chunk->boundary_count = b + 1;
     }
 done:
-    for (int b = 0; b < count; b++)
-        OST_FREE(names[b]);
-    OST_FREE(names);
+    OST_FREE_EACH(count, names);
     OST_FREE(kinds);
     return status;
 }
@@ -178,9 +175,7 @@ static OstStatus try_names(const OstHdf5 *h5, const char *list)
     int count = 0;
     char **names = NULL;
     const OstStatus status = ost_hdf5_has(h5, list) ? ost_hdf5_read_names(h5, list, &count, &names) : OST_SUCCESS;
-    for (int k = 0; k < count; k++)
-        OST_FREE(names[k]);
-    OST_FREE(names);
+    OST_FREE_EACH(count, names);
     return status;
 }
 
@@ -217,9 +212,7 @@ static OstStatus find_nodes(const OstHdf5 *h5, const OstMeshChunk *chunk, size_t
         query[i].word[0] = items[i];
     OST_TRY_DONE(ost_match_keys(h5->ctx, chunk->node_count, pool, value, (OstLocal)count, query, number));
 done:
-    OST_FREE(pool);
-    OST_FREE(value);
-    OST_FREE(query);
+    OST_FREE(pool, value, query);
     return status;
 }
 
@@ -261,7 +254,6 @@ OstStatus ost_groups_read_boundaries(const OstHdf5 *h5, OstMeshChunk *chunk)
     OST_TRY_DONE(find_nodes(h5, chunk, labels, items, number));
     OST_TRY_DONE(ost_agree(h5->ctx, fill_boundaries(h5, chunk, count, width, items, number)));
 done:
-    OST_FREE(items);
-    OST_FREE(number);
+    OST_FREE(items, number);
     return status;
 }

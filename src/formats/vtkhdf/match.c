@@ -74,9 +74,6 @@ done:
     ost_route_destroy(&pool);
     ost_route_destroy(&query);
     ost_index_destroy(&index);
-    OST_FREE(keys);
-    OST_FREE(values);
-    OST_FREE(asked);
-    OST_FREE(found);
+    OST_FREE(keys, values, asked, found);
     return status;
 }

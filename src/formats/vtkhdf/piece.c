@@ -10,9 +10,7 @@ enum { VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
 
 void ost_piece_free(OstPiece *piece)
 {
-    OST_FREE(piece->point);
-    OST_FREE(piece->node);
-    OST_FREE(piece->gathered);
+    OST_FREE(piece->point, piece->node, piece->gathered);
 }
 
 /* Points in the order of the local nodes. */
@@ -87,7 +85,6 @@ OstStatus ost_piece_write_shape(OstHdf5 *h5, OstPiece *piece)
     memset(types, mesh->nodes_per_tet == 4 ? VTK_TETRA : VTK_QUADRATIC_TETRA, (size_t)piece->tets.count);
     status = ost_hdf5_write_rows(h5, "/VTKHDF/Types", H5T_NATIVE_UCHAR, 1, &piece->tets, types);
 done:
-    OST_FREE(numbers);
-    OST_FREE(types);
+    OST_FREE(numbers, types);
     return status;
 }

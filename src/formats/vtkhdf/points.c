@@ -6,7 +6,6 @@
 #include "core/number_set.h"
 #include "formats/vtkhdf/match.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* What must be equal for two points to match. */
@@ -24,10 +23,7 @@ typedef struct Merge {
 
 void ost_file_points_free(OstFilePoints *points)
 {
-    OST_FREE(points->piece_start);
-    OST_FREE(points->coordinates);
-    OST_FREE(points->label);
-    OST_FREE(points->node);
+    OST_FREE(points->piece_start, points->coordinates, points->label, points->node);
 }
 
 static OstGlobal piece_of(const OstFilePoints *points, OstGlobal point)
@@ -197,10 +193,7 @@ OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMes
     chunk->global_nodes = nodes.total;
     OST_TRY_DONE(number_points(&merge, chunk));
 done:
-    OST_FREE(merge.key);
-    OST_FREE(merge.self);
-    OST_FREE(merge.matched);
-    OST_FREE(merge.representative);
+    OST_FREE(merge.key, merge.self, merge.matched, merge.representative);
     return status;
 }
 
@@ -240,8 +233,6 @@ OstStatus ost_file_points_to_nodes(OstContext *ctx, const OstFilePoints *points,
     }
 done:
     ost_number_set_clear(&others);
-    OST_FREE(node);
-    OST_FREE(pool);
-    OST_FREE(query);
+    OST_FREE(node, pool, query);
     return status;
 }

@@ -51,10 +51,8 @@ void ost_step_list_free(OstStepList *list)
 {
     for (int s = 0; s < list->count; s++)
         OST_FREE(list->step[s].name);
-    for (int r = 0; r < list->reason_count; r++)
-        OST_FREE(list->reason[r]);
+    OST_FREE_EACH(list->reason_count, list->reason);
     OST_FREE(list->step);
-    OST_FREE(list->reason);
 }
 
 /* --- writing --- */
@@ -140,8 +138,7 @@ static OstStatus write_values(OstHdf5 *h5, const OstStepList *list)
     }
     OST_THEN(write_few(h5, "/VTKHDF/Steps/Values", H5T_NATIVE_DOUBLE, list->count, values));
     OST_THEN(ost_hdf5_write_names(h5, step_names, list->count, names));
-    OST_FREE(values);
-    OST_FREE(names);
+    OST_FREE(values, names);
     return status;
 }
 
@@ -240,9 +237,7 @@ static OstStatus find_step(const OstHdf5 *h5, const char *step, OstGlobal count,
     }
     if (named == 0)
         snprintf(list, 240, "1 to %lld", (long long)count);
-    for (int s = 0; s < named; s++)
-        OST_FREE(names[s]);
-    OST_FREE(names);
+    OST_FREE_EACH(named, names);
     return status;
 }
 

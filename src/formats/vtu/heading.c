@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "formats/vtu/heading.h"
 
-#include <string.h>
-
 static const char *const centring_word[] = {[OST_ON_NODES] = "PointData", [OST_ON_TETS] = "CellData"};
 
 static const char *type_word(OstValueType type)

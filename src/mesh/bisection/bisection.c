@@ -21,8 +21,7 @@ void ost_bisection_destroy(OstBisection **bisection)
 {
     if (!*bisection)
         return;
-    OST_FREE((*bisection)->tag);
-    OST_FREE((*bisection)->leaf_label);
+    OST_FREE((*bisection)->tag, (*bisection)->leaf_label);
     ost_forest_destroy(&(*bisection)->forest);
     OST_FREE(*bisection);
 }
@@ -173,11 +172,7 @@ static OstStatus carry(const Forest *forest, int width, const double *old, const
     OST_TRY_DONE(ost_rendezvous(ctx, "node between vertices", size, &known, mesh->owned_nodes, key, carried));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_import(mesh->halo, size, carried)));
 done:
-    OST_FREE(key);
-    OST_FREE(load.place);
-    OST_FREE(load.key);
-    OST_FREE(load.order);
-    OST_FREE(load.value);
+    OST_FREE(key, load.place, load.key, load.order, load.value);
     return status;
 }
 
@@ -240,8 +235,7 @@ static OstStatus fetch(const OstBisection *bisection, const OstMesh *mesh, size_
         key[t] = ost_key(mesh->tet_label[t], mesh->tet_label[t]);
     OST_TRY_DONE(ost_rendezvous(ctx, "tet", size, &(OstKeyed){leaves, known, NULL, value}, count, key, fetched));
 done:
-    OST_FREE(known);
-    OST_FREE(key);
+    OST_FREE(known, key);
     return status;
 }
 
@@ -288,8 +282,7 @@ OstStatus ost_bisection_carry_tets(const OstBisection *bisection, int width, con
         cuts[t] = (int)heard[t * all + (size_t)width];
     }
 done:
-    OST_FREE(told);
-    OST_FREE(heard);
+    OST_FREE(told, heard);
     ost_ledger_leave(ctx);
     return status;
 }
@@ -341,15 +334,13 @@ OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *tim
     OstMesh *linear = NULL;
     *fine = NULL;
     OstStatus status = ost_bisection_split(bisection, times, shape, &chunk);
-    if (status == OST_SUCCESS)
-        status = ost_mesh_distribute(ctx, &chunk, &linear);
+    OST_THEN(ost_mesh_distribute(ctx, &chunk, &linear));
     if (status == OST_SUCCESS && quadratic) {
         status = ost_mesh_raise(linear, shape, fine);
         ost_mesh_destroy(&linear);
     } else
         *fine = linear;
-    if (status == OST_SUCCESS)
-        status = ost_bisection_settle(bisection, *fine);
+    OST_THEN(ost_bisection_settle(bisection, *fine));
     ost_chunk_destroy(&chunk);
     if (status != OST_SUCCESS)
         ost_mesh_destroy(fine);

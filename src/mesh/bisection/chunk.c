@@ -85,10 +85,7 @@ static OstStatus first_labels(const Forest *forest, OstGlobal *first)
     OST_TRY_DONE(ost_route_answer(route, sizeof *first, answer, first));
 done:
     ost_route_destroy(&route);
-    OST_FREE(family);
-    OST_FREE(arrived);
-    OST_FREE(answer);
-    OST_FREE(to);
+    OST_FREE(family, arrived, answer, to);
     return status;
 }
 
@@ -96,8 +93,7 @@ static OstStatus label_leaves(const Forest *forest, OstGlobal *label)
 {
     OstGlobal *next = NULL;
     OstStatus status = ost_agree(forest->ctx, OST_NEW(forest->ctx, &next, forest->mesh->owned_tets));
-    if (status == OST_SUCCESS)
-        status = first_labels(forest, next);
+    OST_THEN(first_labels(forest, next));
     for (OstLocal i = 0; status == OST_SUCCESS && i < forest->leaf_count; i++)
         label[i] = next[forest->leaf[i].root]++;
     OST_FREE(next);
@@ -152,9 +148,7 @@ static OstStatus fetch_numbers(const Forest *forest, OstGlobal *number)
     OST_TRY_DONE(
         ost_rendezvous(ctx, "vertex", sizeof *value, &(OstKeyed){held, known, NULL, value}, count, key, number + old));
 done:
-    OST_FREE(key);
-    OST_FREE(known);
-    OST_FREE(value);
+    OST_FREE(key, known, value);
     return status;
 }
 
@@ -301,8 +295,7 @@ OstStatus ost_forest_chunk(Forest *forest, OstMeshChunk **chunk, OstGlobal **lea
     *leaf_label = NULL;
     qsort(forest->leaf, (size_t)forest->leaf_count, sizeof *forest->leaf, compare_leaves);
     OstStatus status = ost_agree(forest->ctx, OST_NEW(forest->ctx, &making.chunk, 1));
-    if (status == OST_SUCCESS)
-        status = make(&making, leaf_label);
+    OST_THEN(make(&making, leaf_label));
     OST_FREE(making.number);
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(&making.chunk);

@@ -28,7 +28,7 @@ typedef struct Entry {
 
 typedef struct Cuts {
     OstIndex *index;
-    OstLocal entry_room, listener_count, listener_room;
+    OstLocal listener_count;
     Entry *entry;
     Listener *listener;
 } Cuts;
@@ -43,7 +43,7 @@ typedef struct Answer {
 
 /* The answers of one exchange. */
 typedef struct Answers {
-    OstLocal count, answer_room, to_room;
+    OstLocal count;
     Answer *answer;
     int *to;
 } Answers;
@@ -53,8 +53,7 @@ void ost_cuts_destroy(Cuts **cuts)
     if (!*cuts)
         return;
     ost_index_destroy(&(*cuts)->index);
-    OST_FREE((*cuts)->entry);
-    OST_FREE((*cuts)->listener);
+    OST_FREE((*cuts)->entry, (*cuts)->listener);
     OST_FREE(*cuts);
 }
 
@@ -70,9 +69,8 @@ static OstStatus cuts_of(Forest *forest, Cuts **cuts)
 
 static OstStatus answer(const Forest *forest, const Entry *entry, const Listener *listener, Answers *answers)
 {
-    OST_TRY(
-        ost_forest_room(forest->ctx, answers->count, sizeof(Answer), &answers->answer_room, (void **)&answers->answer));
-    OST_TRY(ost_forest_room(forest->ctx, answers->count, sizeof(int), &answers->to_room, (void **)&answers->to));
+    OST_TRY(FOREST_ROOM(forest, answers->count, &answers->answer));
+    OST_TRY(FOREST_ROOM(forest, answers->count, &answers->to));
     Answer *made = &answers->answer[answers->count];
     *made = (Answer){listener->edge, entry->holder, entry->label, {0.0}};
     memcpy(made->x, entry->x, sizeof made->x);
@@ -82,8 +80,7 @@ static OstStatus answer(const Forest *forest, const Entry *entry, const Listener
 
 static OstStatus listen(const Forest *forest, Cuts *cuts, OstLocal entry, int rank, OstLocal edge)
 {
-    OST_TRY(ost_forest_room(forest->ctx, cuts->listener_count, sizeof(Listener), &cuts->listener_room,
-                            (void **)&cuts->listener));
+    OST_TRY(FOREST_ROOM(forest, cuts->listener_count, &cuts->listener));
     cuts->listener[cuts->listener_count] = (Listener){entry, cuts->entry[entry].first, rank, edge};
     cuts->entry[entry].first = cuts->listener_count++;
     return OST_SUCCESS;
@@ -96,7 +93,7 @@ static OstStatus file_notice(const Forest *forest, Cuts *cuts, const Notice *not
     OstLocal place = 0;
     OST_TRY(ost_index_place(cuts->index, &notice->key.low, &place));
     if (place == known) {
-        OST_TRY(ost_forest_room(forest->ctx, known, sizeof(Entry), &cuts->entry_room, (void **)&cuts->entry));
+        OST_TRY(FOREST_ROOM(forest, known, &cuts->entry));
         cuts->entry[place] = (Entry){.tet = INT64_MAX, .first = -1};
     }
     if (notice->first)
@@ -176,7 +173,7 @@ static OstStatus hear(Forest *forest, OstLocal count, const Answer *heard)
 {
     for (OstLocal i = 0; i < count; i++) {
         ForestEdge *edge = &forest->edge[heard[i].edge];
-        OST_TRY(FOREST_ROOM(forest, vertex));
+        OST_TRY(FOREST_ROOM(forest, forest->vertex_count, &forest->vertex));
         edge->cut = forest->vertex_count++;
         ForestVertex *vertex = &forest->vertex[edge->cut];
         *vertex = (ForestVertex){.label = heard[i].label, .holder = heard[i].holder, .shared = edge->shared};
@@ -194,10 +191,8 @@ static OstStatus send_answers(Forest *forest, const Answers *answers)
     OstRoute *route = NULL;
     Answer *heard = NULL;
     OstStatus status = ost_route_create(forest->ctx, answers->count, 1, answers->to, &route);
-    if (status == OST_SUCCESS)
-        status = ost_route_carry(route, sizeof *heard, answers->answer, (void **)&heard);
-    if (status == OST_SUCCESS)
-        status = ost_agree(forest->ctx, hear(forest, route->receives, heard));
+    OST_THEN(ost_route_carry(route, sizeof *heard, answers->answer, (void **)&heard));
+    OST_THEN(ost_agree(forest->ctx, hear(forest, route->receives, heard)));
     ost_route_destroy(&route);
     OST_FREE(heard);
     return status;
@@ -213,10 +208,8 @@ static OstStatus send_notices(const Forest *forest, OstRoute **route, Notice **n
         const OstGlobal rank = forest->notice[i].key.low / range;
         to[i] = rank < ost_size(ctx) ? (int)rank : ost_size(ctx) - 1;
     }
-    if (status == OST_SUCCESS)
-        status = ost_route_create(ctx, forest->notice_count, 1, to, route);
-    if (status == OST_SUCCESS)
-        status = ost_route_carry(*route, sizeof **notice, forest->notice, (void **)notice);
+    OST_THEN(ost_route_create(ctx, forest->notice_count, 1, to, route));
+    OST_THEN(ost_route_carry(*route, sizeof **notice, forest->notice, (void **)notice));
     OST_FREE(to);
     return status;
 }
@@ -240,9 +233,6 @@ OstStatus ost_forest_exchange(Forest *forest)
     OST_TRY_DONE(send_answers(forest, &answers));
 done:
     ost_route_destroy(&route);
-    OST_FREE(arrived);
-    OST_FREE(fresh);
-    OST_FREE(answers.answer);
-    OST_FREE(answers.to);
+    OST_FREE(arrived, fresh, answers.answer, answers.to);
     return status;
 }

@@ -7,17 +7,12 @@
 
 #include <string.h>
 
-OstStatus ost_forest_room(OstContext *ctx, OstLocal count, size_t size, OstLocal *room, void **array)
+OstStatus ost_forest_room(OstContext *ctx, OstLocal count, size_t size, void **array)
 {
-    if (count < *room)
-        return OST_SUCCESS;
     if (count == INT32_MAX)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "a rank would hold more than %d tets or edges; use more ranks",
                          INT32_MAX);
-    const OstLocal more = count > INT32_MAX / 3 * 2 ? INT32_MAX : count + count / 2 + 64;
-    OST_TRY(ost_reallocate(ctx, (size_t)more, size, array));
-    *room = more;
-    return OST_SUCCESS;
+    return ost_grow(ctx, (size_t)count + 1, size, array);
 }
 
 void ost_forest_destroy(Forest **forest)
@@ -27,11 +22,7 @@ void ost_forest_destroy(Forest **forest)
         return;
     OST_FREE(old->vertex);
     ost_index_destroy(&old->edges);
-    OST_FREE(old->edge);
-    OST_FREE(old->leaf);
-    OST_FREE(old->barycentric);
-    OST_FREE(old->item);
-    OST_FREE(old->notice);
+    OST_FREE(old->edge, old->leaf, old->barycentric, old->item, old->notice);
     ost_cuts_destroy(&old->cuts);
     OST_FREE(*forest);
 }
@@ -44,7 +35,7 @@ static OstStatus notice_of(Forest *forest, OstLocal number, Notice **notice)
         OstLocal ends[2];
         ost_forest_ends(forest, number, ends);
         const OstKey key = ost_key(forest->vertex[ends[0]].label, forest->vertex[ends[1]].label);
-        OST_TRY(FOREST_ROOM(forest, notice));
+        OST_TRY(FOREST_ROOM(forest, forest->notice_count, &forest->notice));
         edge->notice = forest->notice_count++;
         forest->notice[edge->notice] = (Notice){.key = key, .tet = INT64_MAX, .edge = number, .first = !edge->told};
         edge->told = 1;
@@ -60,7 +51,7 @@ OstStatus ost_forest_edge(Forest *forest, OstLocal a, OstLocal b, OstLocal *edge
     OST_TRY(ost_index_place(forest->edges, key, edge));
     if (*edge < known)
         return OST_SUCCESS;
-    OST_TRY(ost_forest_room(forest->ctx, known, sizeof *forest->edge, &forest->edge_room, (void **)&forest->edge));
+    OST_TRY(FOREST_ROOM(forest, known, &forest->edge));
     forest->edge[*edge] =
         (ForestEdge){.cut = -1, .notice = -1, .shared = forest->vertex[a].shared && forest->vertex[b].shared};
     Notice *notice;
@@ -73,7 +64,7 @@ static OstStatus file_vertices(Forest *forest)
 {
     const OstMesh *mesh = forest->mesh;
     OST_TRY(OST_NEW(forest->ctx, &forest->vertex, mesh->node_count));
-    forest->vertex_count = forest->vertex_room = mesh->node_count;
+    forest->vertex_count = mesh->node_count;
     for (OstLocal n = 0; n < mesh->node_count; n++) {
         ForestVertex *vertex = &forest->vertex[n];
         *vertex = (ForestVertex){mesh->node_label[n], {-1, -1}, -1, n >= mesh->owned_nodes, {0.0}};
@@ -97,7 +88,6 @@ static OstStatus file_tets(Forest *forest, const OstTag *tag)
 {
     const OstMesh *mesh = forest->mesh;
     OST_TRY(OST_NEW(forest->ctx, &forest->leaf, mesh->owned_tets));
-    forest->leaf_room = mesh->owned_tets;
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
         Leaf *leaf = &forest->leaf[forest->leaf_count++];
         *leaf = (Leaf){.root = t, .place = -1, .tag = tag[t]};
@@ -201,8 +191,8 @@ static OstStatus place_children(Forest *forest, const Leaf *parent, OstLocal pla
     for (int c = 0; c < 2; c++) {
         place[c] = c == 0 ? parent->place : -1;
         if (place[c] < 0) {
-            OST_TRY(ost_forest_room(forest->ctx, forest->place_count, 16 * sizeof(double), &forest->place_room,
-                                    (void **)&forest->barycentric));
+            OST_TRY(
+                ost_forest_room(forest->ctx, forest->place_count, 16 * sizeof(double), (void **)&forest->barycentric));
             place[c] = forest->place_count++;
         }
         double *row = forest->barycentric + 16 * (size_t)place[c];
@@ -227,7 +217,7 @@ static OstStatus bisect(Forest *forest, OstLocal number)
                          (long long)forest->mesh->tet_label[parent.root], DEEPEST + 1);
     ost_tag_children(&parent.tag, tag);
     OST_TRY(place_children(forest, &parent, place));
-    OST_TRY(FOREST_ROOM(forest, leaf));
+    OST_TRY(FOREST_ROOM(forest, forest->leaf_count, &forest->leaf));
     for (int c = 0; c < 2; c++) {
         Leaf child = parent;
         child.vertex[ends[1 - c]] = middle;
@@ -245,7 +235,7 @@ static OstStatus bisect(Forest *forest, OstLocal number)
 
 /* The leaves to be cut in this round. */
 typedef struct Round {
-    OstLocal count, room;
+    OstLocal count;
     OstLocal *leaf;
 } Round;
 
@@ -259,7 +249,7 @@ static OstStatus choose(Forest *forest, const unsigned char *times, Round *round
             cut |= forest->edge[leaf->edge[e]].cut >= 0;
         if (!cut)
             continue;
-        OST_TRY(ost_forest_room(forest->ctx, round->count, sizeof *round->leaf, &round->room, (void **)&round->leaf));
+        OST_TRY(FOREST_ROOM(forest, round->count, &round->leaf));
         round->leaf[round->count++] = i;
         OST_TRY(ask_cut(forest, leaf));
     }

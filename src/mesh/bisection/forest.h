@@ -59,18 +59,17 @@ typedef struct Forest {
     const OstShapeSurface *shape;
     OstGlobal highest_label; /* of a vertex, so far */
     OstGlobal label_limit;   /* of a node of the old mesh */
-    OstLocal vertex_count, vertex_room;
+    OstLocal vertex_count;
     ForestVertex *vertex;
     OstIndex *edges; /* by the local numbers of its ends, the lower first */
-    OstLocal edge_room;
     ForestEdge *edge;
-    OstLocal leaf_count, leaf_room;
+    OstLocal leaf_count;
     Leaf *leaf;
-    OstLocal place_count, place_room;
+    OstLocal place_count;
     double *barycentric; /* place_count × 16: of each vertex of a leaf, in its root */
-    OstLocal item_count, item_room;
+    OstLocal item_count;
     Item *item;
-    OstLocal notice_count, notice_room;
+    OstLocal notice_count;
     Notice *notice;
     struct Cuts *cuts;
 } Forest;
@@ -114,9 +113,7 @@ OstStatus ost_forest_exchange(Forest *forest);
 void ost_cuts_destroy(struct Cuts **cuts);
 
 /* Local. Room for one more entry of an array that grows. */
-OstStatus ost_forest_room(OstContext *ctx, OstLocal count, size_t size, OstLocal *room, void **array);
-#define FOREST_ROOM(forest, what)                                                                          \
-    ost_forest_room((forest)->ctx, (forest)->what##_count, sizeof *(forest)->what, &(forest)->what##_room, \
-                    (void **)&(forest)->what)
+OstStatus ost_forest_room(OstContext *ctx, OstLocal count, size_t size, void **array);
+#define FOREST_ROOM(forest, count, array) ost_forest_room((forest)->ctx, (count), sizeof **(array), (void **)(array))
 
 #endif

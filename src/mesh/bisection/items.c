@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/number_set.h"
 #include "mesh/bisection/forest.h"
-
-#include <string.h>
 
 /* Curves and faces of boundaries. Each is split by the one rank that owns it. A face is cut as the tets behind it:
  * first across its marked edge, then opposite the new vertex. The rank has those tets, though perhaps as another's. */
@@ -32,7 +29,7 @@ static OstStatus file_edges_of(Forest *forest, Item *item)
 
 static OstStatus add_item(Forest *forest, Item *item)
 {
-    OST_TRY(FOREST_ROOM(forest, item));
+    OST_TRY(FOREST_ROOM(forest, forest->item_count, &forest->item));
     OST_TRY(file_edges_of(forest, item));
     forest->item[forest->item_count++] = *item;
     return OST_SUCCESS;

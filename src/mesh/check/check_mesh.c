@@ -9,7 +9,6 @@
 
 #include <float.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { LABELS_SHOWN = 8 };
 
@@ -147,8 +146,7 @@ static OstStatus check_used(const OstMesh *mesh, const Incidence *incidence)
         return OST_SUCCESS;
     OstGlobal *all = NULL;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &all, (size_t)ost_size(ctx) * LABELS_SHOWN));
-    if (status == OST_SUCCESS)
-        status = raise_unused(mesh, count, lowest, all);
+    OST_THEN(raise_unused(mesh, count, lowest, all));
     OST_FREE(all);
     return status;
 }

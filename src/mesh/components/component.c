@@ -7,15 +7,13 @@
 #include "mesh/components/component_faces.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 void ost_components_destroy(OstComponents **components)
 {
     if (!*components)
         return;
-    OST_FREE((*components)->of_tet);
-    OST_FREE((*components)->component);
+    OST_FREE((*components)->of_tet, (*components)->component);
     OST_FREE(*components);
 }
 
@@ -69,8 +67,7 @@ static OstStatus reduce(OstContext *ctx, OstComponents *components)
     OstGlobal *tets = NULL;
     double *box = NULL;
     OstStatus status = OST_NEW(ctx, &tets, 2 * count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &box, MINIMA * count);
+    OST_THEN(OST_NEW(ctx, &box, MINIMA * count));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t p = 0; p < count; p++) {
         tets[p] = components->component[p].tets;
@@ -92,8 +89,7 @@ static OstStatus reduce(OstContext *ctx, OstComponents *components)
         }
     }
 done:
-    OST_FREE(tets);
-    OST_FREE(box);
+    OST_FREE(tets, box);
     return status;
 }
 
@@ -135,9 +131,7 @@ static OstStatus order(const OstMesh *mesh, OstComponents *components)
     components->component = ordered;
     ordered = NULL;
 done:
-    OST_FREE(rank);
-    OST_FREE(ordered);
-    OST_FREE(place);
+    OST_FREE(rank, ordered, place);
     return status;
 }
 
@@ -146,8 +140,7 @@ static OstStatus find_components(const OstMesh *mesh, OstComponents *components)
     OstContext *ctx = mesh->ctx;
     OstOverlap overlap = {0};
     OstStatus status = OST_NEW(ctx, &components->of_tet, mesh->tet_count);
-    if (status == OST_SUCCESS)
-        status = ost_component_faces_join(mesh, components->of_tet, &components->count, &overlap);
+    OST_THEN(ost_component_faces_join(mesh, components->of_tet, &components->count, &overlap));
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(check_overlap(ctx, &overlap));
     if (ost_size(ctx) > 1)

@@ -16,7 +16,7 @@ typedef struct Face {
 typedef struct FaceChains {
     OstLocal *first; /* owned_nodes */
     Face *face;      /* from 1 */
-    OstLocal count, capacity;
+    OstLocal count;
 } FaceChains;
 
 /* A tet's vertices in ascending order; `turned` tells whether that took an odd number of swaps. */
@@ -40,15 +40,10 @@ static void sort_vertices(const OstLocal *tet, OstLocal v[4], int *turned)
 /* Room for the four faces of another tet. */
 static OstStatus make_room(OstContext *ctx, FaceChains *chains)
 {
-    if (chains->capacity - chains->count > 4)
-        return OST_SUCCESS;
-    const OstGlobal capacity = (OstGlobal)chains->capacity / 2 * 3 + 64;
-    if (capacity > INT32_MAX)
+    if (chains->count >= INT32_MAX - 4)
         return OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "the tets of one rank have more than %d faces; use more ranks",
                          INT32_MAX);
-    OST_TRY(OST_RESIZE(ctx, &chains->face, capacity));
-    chains->capacity = (OstLocal)capacity;
-    return OST_SUCCESS;
+    return OST_GROW(ctx, &chains->face, chains->count + 5);
 }
 
 static void note_overlap(const OstMesh *mesh, OstLocal s, OstLocal t, OstOverlap *overlap)
@@ -111,12 +106,10 @@ OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal 
     ost_set_start(set, mesh->tet_count);
     OST_TRY_DONE(OST_NEW(mesh->ctx, &chains.first, mesh->owned_nodes));
     /* Twice as many faces as tets, and some more for the surface. */
-    chains.capacity = (OstLocal)(mesh->tet_count < INT32_MAX / 4 ? mesh->tet_count / 4 * 9 + 64 : INT32_MAX / 4 * 3);
-    OST_TRY_DONE(OST_NEW(mesh->ctx, &chains.face, chains.capacity));
+    OST_TRY_DONE(OST_NEW(mesh->ctx, &chains.face, (size_t)mesh->tet_count / 4 * 9 + 64));
     OST_TRY_DONE(add_all_faces(mesh, &chains, set, overlap));
     *set_count = ost_set_number(set, mesh->tet_count);
 done:
-    OST_FREE(chains.first);
-    OST_FREE(chains.face);
+    OST_FREE(chains.first, chains.face);
     return status;
 }

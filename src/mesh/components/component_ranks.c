@@ -9,7 +9,6 @@
 #include "mesh/union_find.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* A tet that is owned on one rank and a ghost on others: its vertices' global numbers, ascending, and a rank's set of
  * it.
@@ -89,8 +88,7 @@ static OstStatus send_ghosts(const OstMesh *mesh, const OstLocal *set, SharedTet
     SharedTet *ghost = NULL;
     OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &to, ghosts);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &ghost, ghosts);
+    OST_THEN(OST_NEW(ctx, &ghost, ghosts));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal i = 0; i < ghosts; i++) {
         const OstLocal tet = mesh->owned_tets + i;
@@ -101,8 +99,7 @@ static OstStatus send_ghosts(const OstMesh *mesh, const OstLocal *set, SharedTet
     OST_TRY_DONE(ost_route_carry(route, sizeof *ghost, ghost, (void **)arrived));
     *count = route->receives;
 done:
-    OST_FREE(to);
-    OST_FREE(ghost);
+    OST_FREE(to, ghost);
     ost_route_destroy(&route);
     return status;
 }
@@ -206,8 +203,7 @@ OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, Ost
     OST_TRY_DONE(number_sets(mesh, set_count, set, count));
     OST_TRY_DONE(send_ghosts(mesh, set, &arrived, &arrivals));
     status = match_ghosts(mesh, set, arrived, arrivals, &links);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &merged, *count);
+    OST_THEN(OST_NEW(ctx, &merged, *count));
     OST_TRY_DONE(ost_agree(ctx, status));
     ost_set_start(merged, *count);
     OST_TRY_DONE(join_everywhere(ctx, &links, merged));
@@ -215,8 +211,6 @@ OstStatus ost_component_ranks_merge(const OstMesh *mesh, OstLocal set_count, Ost
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         set[t] = merged[set[t]];
 done:
-    OST_FREE(arrived);
-    OST_FREE(merged);
-    OST_FREE(links.link);
+    OST_FREE(arrived, merged, links.link);
     return status;
 }

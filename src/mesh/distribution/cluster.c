@@ -168,7 +168,6 @@ OstStatus ost_cluster_graph(const Slab *slab, const Graph *nodes, const Clusters
         graph->start[c + 1] = end;
     }
 done:
-    OST_FREE(start);
-    OST_FREE(node);
+    OST_FREE(start, node);
     return status;
 }

@@ -79,8 +79,6 @@ OstStatus ost_curve_slabs(OstContext *ctx, OstLocal count, const double *x, int 
     for (OstLocal i = 0; i < count; i++)
         to[i] = ost_number_holder(end, (int)size, place[i]);
 done:
-    OST_FREE(place);
-    OST_FREE(sorted);
-    OST_FREE(end);
+    OST_FREE(place, sorted, end);
     return status;
 }

@@ -99,9 +99,7 @@ static OstStatus partition_along_curve(const OstMeshChunk *chunk, const Slab *sl
     OST_TRY_DONE(ost_route_answer(route, sizeof *part, moved_part, part));
     OST_TRY_DONE(ost_halo_import(slab->halo, sizeof *part, part));
 done:
-    OST_FREE(to);
-    OST_FREE(moved_metric);
-    OST_FREE(moved_part);
+    OST_FREE(to, moved_metric, moved_part);
     ost_route_destroy(&route);
     ost_slab_destroy(&moved);
     return status;

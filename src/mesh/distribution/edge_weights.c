@@ -48,14 +48,10 @@ OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, c
     const size_t n = (size_t)slab->node_count + (size_t)slab->ghost_count;
     double *position = NULL, *centroid = NULL, *of_tet = NULL, *sums = NULL;
     OstStatus status = OST_NEW(ctx, &position, 3 * n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &centroid, 3 * (size_t)chunk->tet_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &of_tet, 6 * (size_t)chunk->tet_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &sums, SUMS * n);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, nodes, n);
+    OST_THEN(OST_NEW(ctx, &centroid, 3 * (size_t)chunk->tet_count));
+    OST_THEN(OST_NEW(ctx, &of_tet, 6 * (size_t)chunk->tet_count));
+    OST_THEN(OST_NEW(ctx, &sums, SUMS * n));
+    OST_THEN(OST_NEW(ctx, nodes, n));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(find_positions(chunk, slab, position));
     find_centroids(chunk, slab, position, centroid);
@@ -68,10 +64,7 @@ OstStatus ost_node_metrics_create(const OstMeshChunk *chunk, const Slab *slab, c
                 sums[SUMS * i + c] / fmax(sums[SUMS * i + 6], 1.0); /* ost_check_mesh: without tets */
     }
 done:
-    OST_FREE(position);
-    OST_FREE(centroid);
-    OST_FREE(of_tet);
-    OST_FREE(sums);
+    OST_FREE(position, centroid, of_tet, sums);
     return status;
 }
 

@@ -9,10 +9,7 @@
 
 void ost_graph_clear(Graph *graph)
 {
-    OST_FREE(graph->start);
-    OST_FREE(graph->neighbour);
-    OST_FREE(graph->edge_weight);
-    OST_FREE(graph->row_weight);
+    OST_FREE(graph->start, graph->neighbour, graph->edge_weight, graph->row_weight);
 }
 
 OstStatus ost_graph_check_limits(OstContext *ctx, const char *what, OstGlobal rows, OstGlobal entries)

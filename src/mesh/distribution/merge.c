@@ -100,8 +100,7 @@ static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal
     int *to = NULL;
     OstRoute *route = NULL;
     OstStatus status = OST_NEW(ctx, &end, ost_size(ctx));
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &to, count);
+    OST_THEN(OST_NEW(ctx, &to, count));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_number_ends(ctx, merge->points.first + merge->points.count, end));
     for (OstLocal i = 0; i < count; i++)
@@ -112,9 +111,7 @@ static OstStatus ask_holders(const Merge *merge, OstLocal count, const OstGlobal
         arrived[i] = merge->number[arrived[i] - merge->points.first];
     OST_TRY_DONE(ost_route_answer(route, sizeof *number, arrived, number));
 done:
-    OST_FREE(end);
-    OST_FREE(arrived);
-    OST_FREE(to);
+    OST_FREE(end, arrived, to);
     ost_route_destroy(&route);
     return status;
 }
@@ -135,8 +132,7 @@ static OstStatus number_merged(Merge *merge, double tolerance)
     OstGlobal *asked = NULL, *number = NULL;
     OstLocal count = 0;
     OstStatus status = OST_NEW(ctx, &asked, merge->points.count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &number, merge->points.count);
+    OST_THEN(OST_NEW(ctx, &number, merge->points.count));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal i = 0; i < merge->points.count; i++)
         if (merge->number[i] < 0)
@@ -152,8 +148,7 @@ static OstStatus number_merged(Merge *merge, double tolerance)
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_agree(ctx, ost_halo_import(merge->slab->halo, sizeof *merge->number, merge->number)));
 done:
-    OST_FREE(asked);
-    OST_FREE(number);
+    OST_FREE(asked, number);
     return status;
 }
 
@@ -196,10 +191,8 @@ static OstStatus merge_vertices(Merge *merge, double tolerance, OstGlobal *merge
     OST_TRY(ost_slab_create(chunk, &merge->slab));
     OST_TRY(check_tolerance(merge, tolerance));
     OstStatus status = OST_NEW(ctx, &merge->lowest, chunk->node_count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count);
-    if (status == OST_SUCCESS)
-        status = ost_chunk_label_nodes(chunk);
+    OST_THEN(OST_NEW(ctx, &merge->number, (size_t)merge->slab->node_count + (size_t)merge->slab->ghost_count));
+    OST_THEN(ost_chunk_label_nodes(chunk));
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_coincident_find(&merge->points, tolerance, merge->lowest));
     OST_TRY(number_kept(merge));
@@ -217,10 +210,8 @@ OstStatus ost_chunk_merge(OstMeshChunk *chunk, double tolerance, OstGlobal *merg
     ost_ledger_enter(chunk->ctx, OST_LEDGER_MESH);
     OstStatus status = ost_check_chunk(chunk);
     Merge merge = {.chunk = chunk, .points = {chunk->ctx, chunk->first_node, chunk->node_count, chunk->coordinates}};
-    if (status == OST_SUCCESS)
-        status = merge_vertices(&merge, tolerance, merged);
-    OST_FREE(merge.lowest);
-    OST_FREE(merge.number);
+    OST_THEN(merge_vertices(&merge, tolerance, merged));
+    OST_FREE(merge.lowest, merge.number);
     ost_slab_destroy(&merge.slab);
     ost_ledger_leave(chunk->ctx);
     return status;

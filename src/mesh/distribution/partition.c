@@ -141,10 +141,8 @@ static OstStatus partition_on_rank_0(const Slab *slab, Gathering *gathering, int
         ost_graph_shrink_weights(gathering->whole.rows, gathering->whole.row_weight);
         ost_graph_shrink_weights(gathering->whole.start[gathering->whole.rows], gathering->whole.edge_weight);
         status = OST_NEW(ctx, &part, gathering->whole.rows);
-        if (status == OST_SUCCESS)
-            status = ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), PART_IMBALANCE, part);
-        if (status == OST_SUCCESS)
-            status = fill_empty_parts(slab, &gathering->whole, part);
+        OST_THEN(ost_metis_partition(ctx, &gathering->whole, ost_size(ctx), PART_IMBALANCE, part));
+        OST_THEN(fill_empty_parts(slab, &gathering->whole, part));
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(OST_MPI(ctx, MPI_Scatterv(part, gathering->row_count, gathering->row_start, idx_type(), cluster_part,
@@ -161,8 +159,7 @@ static OstStatus partition_clusters(const Slab *slab, const Graph *nodes, const 
     Gathering gathering = {0};
     idx_t *cluster_part = NULL;
     OstStatus status = ost_cluster_graph(slab, nodes, clusters, &mine);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &cluster_part, clusters->count);
+    OST_THEN(OST_NEW(ctx, &cluster_part, clusters->count));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(gather_graph(ctx, &mine, &gathering));
     OST_TRY_DONE(partition_on_rank_0(slab, &gathering, clusters->count, cluster_part));

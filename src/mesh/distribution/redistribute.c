@@ -264,7 +264,6 @@ OstStatus ost_mesh_redistribute(OstMeshChunk *chunk, const Slab *slab, const int
     for (int b = 0; b < mesh->boundary_count; b++)
         OST_TRY_DONE(redistribute_boundary(&mesh->boundaries[b], slab, part, number, mesh));
 done:
-    OST_FREE(number);
-    OST_FREE(nodes);
+    OST_FREE(number, nodes);
     return status;
 }

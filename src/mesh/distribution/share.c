@@ -146,8 +146,7 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(broadcast(ctx, &outline, sizeof outline));
     status = OST_NEW(ctx, &text, outline.text_bytes);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count);
+    OST_THEN(OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_rank(ctx) == 0)
         pack_names(*chunk, text, kind);
@@ -159,8 +158,7 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
         status = create_empty(ctx, &outline, text, kind, chunk);
     status = ost_agree(ctx, status);
 done:
-    OST_FREE(text);
-    OST_FREE(kind);
+    OST_FREE(text, kind);
     if (status != OST_SUCCESS)
         ost_chunk_destroy(chunk);
     return status;

@@ -10,8 +10,7 @@ void ost_slab_destroy(Slab **slab)
 {
     if (!*slab)
         return;
-    OST_FREE((*slab)->ghost_number);
-    OST_FREE((*slab)->tet_nodes);
+    OST_FREE((*slab)->ghost_number, (*slab)->tet_nodes);
     ost_halo_destroy(&(*slab)->halo);
     OST_FREE(*slab);
 }
@@ -110,8 +109,7 @@ static OstStatus send_tets(const Slab *slab, const int *to, const OstGlobal *num
     OST_TRY_DONE(ost_route_carry(route, width * sizeof *sent, sent, (void **)nodes));
     moved->tet_count = route->receives;
 done:
-    OST_FREE(rank);
-    OST_FREE(sent);
+    OST_FREE(rank, sent);
     ost_route_destroy(&route);
     return status;
 }
@@ -143,7 +141,6 @@ OstStatus ost_slab_move(const Slab *slab, const OstRoute *route, const int *to, 
     OST_TRY_DONE(send_tets(slab, to, number, *moved, &nodes));
     OST_TRY_DONE(complete(NULL, nodes, *moved));
 done:
-    OST_FREE(number);
-    OST_FREE(nodes);
+    OST_FREE(number, nodes);
     return status;
 }

@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "core/parallel/rendezvous.h"
 #include "core/parallel/route.h"
@@ -46,12 +45,7 @@ typedef struct Welding {
 
 static void destroy_welding(Welding *w)
 {
-    OST_FREE(w->sum);
-    OST_FREE(w->softer);
-    OST_FREE(w->set);
-    OST_FREE(w->label);
-    OST_FREE(w->piece);
-    OST_FREE(w->place);
+    OST_FREE(w->sum, w->softer, w->set, w->label, w->piece, w->place);
 }
 
 static OstStatus create_welding(const OstMeshChunk *chunk, const Slab *slab, Welding *w)
@@ -257,8 +251,7 @@ static OstStatus label_nodes(Welding *w)
                                                       : w->slab->ghost_number[i - (size_t)w->slab->node_count];
     spread_labels(w);
     OstStatus status = list_shared(w, &count, &node, &key);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(ctx, &label, 2 * (size_t)count);
+    OST_THEN(OST_NEW(ctx, &label, 2 * (size_t)count));
     OST_TRY_DONE(ost_agree(ctx, status));
     for (int round = 0; changed > 0 && round < MOST_ROUNDS; round++) {
         changed = 0;
@@ -274,9 +267,7 @@ static OstStatus label_nodes(Welding *w)
         OST_TRY_DONE(ost_sum_numbers(ctx, 1, &changed));
     }
 done:
-    OST_FREE(node);
-    OST_FREE(key);
-    OST_FREE(label);
+    OST_FREE(node, key, label);
     return status;
 }
 
@@ -364,9 +355,7 @@ static OstStatus ask_for_parts(const Welding *w, OstLocal *decided)
     OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, decided));
 done:
     ost_route_destroy(&route);
-    OST_FREE(to);
-    OST_FREE(met);
-    OST_FREE(answer);
+    OST_FREE(to, met, answer);
     return status;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -160,13 +161,6 @@ typedef struct Numbered {
     OstLocal node;
 } Numbered;
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal x = ((const Numbered *)a)->number;
-    const OstGlobal y = ((const Numbered *)b)->number;
-    return (x > y) - (x < y);
-}
-
 /* Marks all nodes of this rank's tets, and lists those that other ranks own, by ascending number. */
 static OstStatus list_ghosts(const Making *making, Numbered **ghost, OstLocal *count)
 {
@@ -184,7 +178,7 @@ static OstStatus list_ghosts(const Making *making, Numbered **ghost, OstLocal *c
     for (OstLocal n = 0; n < mid->count; n++)
         if (making->local[n] != 0 && !ost_mid_nodes_owns(mid, n))
             *next++ = (Numbered){mid->number[n], n};
-    qsort(*ghost, (size_t)*count, sizeof **ghost, compare_numbers);
+    qsort(*ghost, (size_t)*count, sizeof **ghost, ost_compare_numbers);
     return OST_SUCCESS;
 }
 
@@ -309,8 +303,7 @@ OstStatus ost_mesh_divide(const MidNodes *mid, const Division *division, const u
     Making making = {mid, division, turn, NULL, NULL, NULL};
     OstStatus status = ost_agree(mid->mesh->ctx, make_piece(&making));
     OST_FREE(making.local);
-    if (status == OST_SUCCESS)
-        status = ost_mesh_connect(making.mesh);
+    OST_THEN(ost_mesh_connect(making.mesh));
     if (status != OST_SUCCESS)
         ost_mesh_destroy(&making.mesh);
     if (status != OST_SUCCESS || !origin)

@@ -3,14 +3,9 @@
 #include "core/memory.h"
 #include "mesh/refinement/mid_nodes.h"
 
-#include <string.h>
-
 void ost_edge_table_clear(EdgeTable *table)
 {
-    OST_FREE(table->start);
-    OST_FREE(table->low);
-    OST_FREE(table->high);
-    OST_FREE(table->of_tet);
+    OST_FREE(table->start, table->low, table->high, table->of_tet);
     table->count = 0;
 }
 
@@ -97,28 +92,23 @@ static void insert(OstLocal number, OstLocal *ascending, OstLocal count)
     ascending[place] = number;
 }
 
-/* Makes room for more edges. */
-static OstStatus make_room(const OstMesh *mesh, OstGlobal edges, OstGlobal *room, EdgeTable *table)
+static OstStatus make_room(const OstMesh *mesh, OstGlobal edges, EdgeTable *table)
 {
     if (edges > INT32_MAX)
         return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
                          "a rank would hold more than the %d mid-edge nodes it can number; use more ranks", INT32_MAX);
-    if (edges <= *room)
-        return OST_SUCCESS;
-    *room = edges + edges / 2;
-    OST_TRY(OST_RESIZE(mesh->ctx, &table->low, *room));
-    return OST_RESIZE(mesh->ctx, &table->high, *room);
+    OST_TRY(OST_GROW(mesh->ctx, &table->low, edges));
+    return OST_GROW(mesh->ctx, &table->high, edges);
 }
 
 /* Numbers the edges, those of one low end after those of the one before. edge_to: node_count zeros. */
 static OstStatus number_sides(const OstMesh *mesh, const OstGlobal *start, const Side *side, OstLocal *edge_to,
                               EdgeTable *table)
 {
-    OstGlobal room = 0;
-    OST_TRY(make_room(mesh, mesh->tet_count + (OstGlobal)mesh->node_count, &room, table));
+    OST_TRY(make_room(mesh, mesh->tet_count + (OstGlobal)mesh->node_count, table));
     for (OstLocal n = 0; n < mesh->node_count; n++) {
         const OstLocal first = table->count;
-        OST_TRY(make_room(mesh, first + start[n + 1] - start[n], &room, table));
+        OST_TRY(make_room(mesh, first + start[n + 1] - start[n], table));
         for (OstGlobal i = start[n]; i < start[n + 1]; i++) {
             OstLocal *edge = &edge_to[side[i].high]; /* plus 1; not above `first`: of another low end */
             if (*edge <= first) {
@@ -149,8 +139,6 @@ OstStatus ost_edge_table_build(const OstMesh *mesh, EdgeTable *table)
     OST_THEN(OST_NEW(mesh->ctx, &table->of_tet, 6 * (size_t)mesh->tet_count));
     OST_THEN(list_sides(mesh, start, &side));
     OST_THEN(number_sides(mesh, start, side, edge_to, table));
-    OST_FREE(start);
-    OST_FREE(edge_to);
-    OST_FREE(side);
+    OST_FREE(start, edge_to, side);
     return status;
 }

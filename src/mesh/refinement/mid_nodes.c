@@ -13,9 +13,7 @@
 void ost_mid_nodes_clear(MidNodes *mid)
 {
     ost_edge_table_clear(&mid->edges);
-    OST_FREE(mid->number);
-    OST_FREE(mid->label);
-    OST_FREE(mid->coordinates);
+    OST_FREE(mid->number, mid->label, mid->coordinates);
 }
 
 int ost_mid_nodes_owns(const MidNodes *mid, OstLocal node)
@@ -101,13 +99,11 @@ static OstStatus ask_owners(const MidNodes *mid, OstLocal count, const Ends *end
     OST_TRY_DONE(ost_route_create(ctx, count, 1, to, &route));
     OST_TRY_DONE(ost_route_carry(route, sizeof *ends, ends, (void **)&asked));
     status = OST_NEW(ctx, &answer, route->receives);
-    if (status == OST_SUCCESS)
-        status = look_up(mid, route->receives, asked, answer);
+    OST_THEN(look_up(mid, route->receives, asked, answer));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_route_answer(route, sizeof *answer, answer, number));
 done:
-    OST_FREE(asked);
-    OST_FREE(answer);
+    OST_FREE(asked, answer);
     ost_route_destroy(&route);
     return status;
 }
@@ -120,14 +116,12 @@ static OstStatus number_ghosts(MidNodes *mid)
     Ends *ends = NULL;
     int *to = NULL;
     OstStatus status = OST_NEW(mesh->ctx, &ends, count);
-    if (status == OST_SUCCESS)
-        status = OST_NEW(mesh->ctx, &to, count);
+    OST_THEN(OST_NEW(mesh->ctx, &to, count));
     OST_TRY_DONE(ost_agree(mesh->ctx, status));
     list_questions(mid, ends, to);
     status = ask_owners(mid, count, ends, to, mid->number + mesh->node_count + owned);
 done:
-    OST_FREE(ends);
-    OST_FREE(to);
+    OST_FREE(ends, to);
     return status;
 }
 
@@ -192,8 +186,7 @@ OstStatus ost_mid_nodes_create(const OstMesh *mesh, const OstShapeSurface *shape
 {
     mid->mesh = mesh;
     OstStatus status = ost_edge_table_build(mesh, &mid->edges);
-    if (status == OST_SUCCESS)
-        status = allocate(mid);
+    OST_THEN(allocate(mid));
     OST_TRY(ost_agree(mesh->ctx, status));
     OST_TRY(number_owned(mid));
     OST_TRY(number_ghosts(mid));

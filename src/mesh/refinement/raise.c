@@ -19,8 +19,7 @@ static OstStatus raise_linear(const OstMesh *linear, const OstShapeSurface *shap
                          linear->nodes_per_tet);
     MidNodes mid = {0};
     OstStatus status = ost_mid_nodes_create(linear, shape, &mid);
-    if (status == OST_SUCCESS)
-        status = ost_mesh_raise_over(&mid, quadratic);
+    OST_THEN(ost_mesh_raise_over(&mid, quadratic));
     ost_mid_nodes_clear(&mid);
     if (status == OST_SUCCESS && shape)
         status = ost_check_folds(*quadratic);

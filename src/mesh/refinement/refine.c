@@ -171,8 +171,7 @@ OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, O
     *fine = refinement.fine;
     refinement.fine = NULL;
 done:
-    OST_FREE(refinement.turn);
-    OST_FREE(refinement.origin);
+    OST_FREE(refinement.turn, refinement.origin);
     ost_mesh_destroy(&refinement.fine);
     ost_mesh_destroy(&skeleton);
     ost_ledger_leave(coarse->ctx);

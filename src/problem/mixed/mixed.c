@@ -20,8 +20,7 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
     for (OstLocal i = 0; i < problem->pressures->owned; i++)
         g[i] = -g[i];
 done:
-    OST_FREE(none);
-    OST_FREE(prescribed);
+    OST_FREE(none, prescribed);
     return status;
 }
 

@@ -4,7 +4,6 @@
 #include "core/error.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Bars along z with the section |x| <= a/2, |y| <= b/2, of a material whose axes are the world's. */
 static const char column[] = "a block with its origin at [-a/2, -b/2, 0]";

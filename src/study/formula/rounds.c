@@ -5,7 +5,6 @@
 #include "core/small.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Thick tubes and hollow spheres under pressure. */
 

@@ -116,8 +116,7 @@ OstStatus ost_network_measure(OstContext *ctx, OstNetwork *network)
     OST_TRY(ost_network_cores(ctx, &cores, &ranks));
     network->ranks = ranks;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &room, LONG_BYTES));
-    if (status == OST_SUCCESS)
-        status = ost_agree(ctx, measure(ctx, room, network));
+    OST_THEN(ost_agree(ctx, measure(ctx, room, network)));
     OST_FREE(room);
     network->bandwidth *= ranks; /* as if every rank had it to itself: ranks of one machine copy through its memory */
     return status;
@@ -140,8 +139,7 @@ OstStatus ost_network_cores(OstContext *ctx, int *cores, int *ranks)
     OST_TRY(
         OST_MPI(ctx, MPI_Comm_split_type(ost_comm(ctx), MPI_COMM_TYPE_SHARED, ost_rank(ctx), MPI_INFO_NULL, &machine)));
     OstStatus status = OST_MPI(ctx, MPI_Comm_size(machine, ranks));
-    if (status == OST_SUCCESS)
-        status = OST_MPI(ctx, count_cores(&mine, machine, cores));
+    OST_THEN(OST_MPI(ctx, count_cores(&mine, machine, cores)));
     MPI_Comm_free(&machine);
     OST_TRY(ost_agree(ctx, status));
     *cores = *cores > 0 ? *cores : 1;

@@ -4,11 +4,9 @@
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/reduce.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 const char *const ost_scale_state_word[] = {"waiting", "done", "not run", "failed"};
 
@@ -211,9 +209,7 @@ void ost_scale_destroy(OstScale **scale)
 {
     if (!*scale)
         return;
-    OST_FREE((*scale)->path);
-    OST_FREE((*scale)->title);
-    OST_FREE((*scale)->run);
+    OST_FREE((*scale)->path, (*scale)->title, (*scale)->run);
     OST_FREE(*scale);
 }
 

@@ -2,7 +2,6 @@
 #include "study/scale/model.h"
 #include "study/scale/scale.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static const double kilobyte = 1e3, mebibyte = 1048576.0;

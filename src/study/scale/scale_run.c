@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
-#include "core/memory.h"
 #include "study/scale/model.h"
 #include "study/scale/scale.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 #include <time.h>
 
 /* Bytes of our own arrays for an unknown, where no run has told yet; and memory of processes with libraries over it. */

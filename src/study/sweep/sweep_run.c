@@ -124,8 +124,7 @@ static OstStatus solve(OstSweep *sweep, int number)
                            c->load_case_count, c->load_cases[0].name);
     if (status == OST_SUCCESS && number == 0)
         status = ost_agree(sweep->ctx, name_watches(sweep, c));
-    if (status == OST_SUCCESS)
-        status = c->asks_error && c->path_steps == 0 ? solve_accurately(sweep, c, run) : solve_once(sweep, c, run);
+    OST_THEN(c->asks_error && c->path_steps == 0 ? solve_accurately(sweep, c, run) : solve_once(sweep, c, run));
     ost_case_destroy(&c);
     run->seconds = ost_seconds() - start;
     return status;
