@@ -140,7 +140,8 @@ int main(int argc, char **argv)
     OstContext *ctx = NULL;
     MPI_Init(&argc, &argv);
     const int large_rotation = argc == 5 && strcmp(argv[4], "large-rotation") == 0;
-    if ((argc != 4 && !large_rotation) || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS || ost_size(ctx) != 1) {
+    if ((argc != 4 && !large_rotation) || ost_context_create(MPI_COMM_WORLD, &ctx) != OST_SUCCESS ||
+        ost_size(ctx) != 1) {
         fputs("usage: bench_write_calculix CASE SOLVER FILE.inp [large-rotation] (on one rank)\n", stderr);
         return 2;
     }

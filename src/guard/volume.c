@@ -83,8 +83,8 @@ OstStatus ost_guard_volume_error(const OstProblem *problem, const OstResult *res
     if (!problem->pressures || !problem->field->pressure)
         return OST_SUCCESS;
     OST_TRY_DONE(make_room(problem, &work));
-    OST_TRY_DONE(ost_agree(problem->ctx, ost_pressure_volume(problem->pressures, problem->field, result->formulation, result->t,
-                                                             result->displacement, work.left, work.mass)));
+    OST_TRY_DONE(ost_agree(problem->ctx, ost_pressure_volume(problem->pressures, problem->field, result->formulation,
+                                                             result->t, result->displacement, work.left, work.mass)));
     sums[1] = find_work(problem, &work);
     OST_TRY_DONE(find_force(problem, &work, &sums[0]));
     OST_TRY_DONE(ost_sum(problem->ctx, 2, sums));

@@ -33,8 +33,10 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
     assert_refused(LOAD("on: {all: true}, force: [1, 0, 0]"),
                    "4:23: unknown key 'force' in loads[0]; did you mean 'total_force'? ...");
-    assert_refused(MATERIAL("E: 2, nu: 0.3"), "3:19: unknown key 'E' in materials[0]; did you mean 'youngs_modulus'? ...");
-    assert_refused(CUBE STEEL "supports: []\n", "3:1: unknown key 'supports' in the case; did you mean 'constraints'? ...");
+    assert_refused(MATERIAL("E: 2, nu: 0.3"),
+                   "3:19: unknown key 'E' in materials[0]; did you mean 'youngs_modulus'? ...");
+    assert_refused(CUBE STEEL "supports: []\n",
+                   "3:1: unknown key 'supports' in the case; did you mean 'constraints'? ...");
     assert_refused(MATERIAL("youngs_modulus: 2, poissons_ratio: 0,3"),
                    "3:56: unknown key '3' in materials[0]; decimals follow a point, and no comma: 0.3");
     assert_refused("mesh: plank.msh\n", "1:7: mesh: found 'plank.msh', expected a mapping with the keys tube, block, "
@@ -43,7 +45,8 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
                    "1:24: unknown key 'bananas' in mesh.tube. Known keys: axis, length, radii, divisions, origin");
     assert_refused(LOAD("on: {all: true}, tractoin: [1, 0, 0]"),
                    "4:23: unknown key 'tractoin' in loads[0]; did you mean 'traction'? Known keys: total_force, "
-                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, distributing, on, share, at, region, "
+                   "point_force, traction, pressure, gravity, body_force, centrifugal, moment, distributing, on, "
+                   "share, at, region, "
                    "follows, time");
 }
 

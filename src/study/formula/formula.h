@@ -38,8 +38,9 @@ extern const OstFormula ost_formula_flexure, ost_formula_bending, ost_formula_un
 /* Local. Number of a value by name, or -1. */
 int ost_formula_find_value(const OstFormula *formula, const char *name);
 
-/* The closed-form solution of a case: strain from the formula's displacement, stress by the formula or by the material in
- * its axes at the point, and body force as minus the divergence of that stress, by finite differences of eighth order. */
+/* The closed-form solution of a case: strain from the formula's displacement, stress by the formula or by the material
+ * in its axes at the point, and body force as minus the divergence of that stress, by finite differences of eighth
+ * order. */
 typedef struct OstExact {
     OstClosedForm field; /* field.data is this object */
     OstContext *ctx;
