@@ -14,7 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct argp_option options[] = {{"json", 'j', 0, 0, "Print what was found as JSON", 0}, {0}};
+static const struct argp_option options[] = {
+    {"json", 'j', "FILE", OPTION_ARG_OPTIONAL, "Print what was found as JSON, or write it here", 0}, {0}};
 
 static const struct argp check_argp = {
     .options = options,
@@ -169,7 +170,7 @@ static void print_findings(const OstScene *scene, const Findings *findings)
         printf("solve will write its fields to %s\n", findings->output);
 }
 
-static OstStatus print_json(const OstScene *scene, const Findings *findings)
+static OstStatus write_json(const OstScene *scene, const Findings *findings, const char *path)
 {
     const OstMesh *mesh = scene->mesh;
     json_t *regions = json_array();
@@ -187,7 +188,7 @@ static OstStatus print_json(const OstScene *scene, const Findings *findings)
     if (!root)
         return OST_RAISE(scene->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", scene->c->path);
-    return ost_json_write(scene->ctx, root, "-");
+    return ost_json_write(scene->ctx, root, path);
 }
 
 /* What is solved: the case, or one of its load cases. */
@@ -219,14 +220,16 @@ static OstStatus check_case(OstContext *ctx, void *input)
     OstCase *c = NULL;
     OstScene *scene = NULL;
     OstStatus status = OST_SUCCESS;
+    const char *json = ost_cli_json(arguments);
     OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
+    OST_TRY_DONE(ost_check_outputs(c, 1, &json));
     OST_TRY_DONE(ost_choose_output(c, NULL, findings.output));
     ost_path_step_name(findings.output, 1, sizeof findings.first_step, findings.first_step);
     OST_TRY_DONE(ost_scene_create(c, &scene));
     OST_TRY_DONE(c->load_case_count > 0 ? check_load_cases(scene, &findings) : check_scene(scene, &findings));
     check_output(c, &findings);
-    if (ost_rank(ctx) == 0 && arguments->text['j'])
-        status = print_json(scene, &findings);
+    if (ost_rank(ctx) == 0 && json)
+        status = write_json(scene, &findings, json);
     else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
         print_findings(scene, &findings);
     status = ost_agree(ctx, status);

@@ -98,7 +98,10 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
     OstArguments *arguments = state->input;
     const char *path = arguments->case_path;
     if (key == ARGP_KEY_ARG && path) {
-        argp_error(state, "one case at a time: '%s' came after '%s'", value, path);
+        const size_t length = strlen(path);
+        const int is_json = length > 5 && strcmp(path + length - 5, ".json") == 0;
+        argp_error(state, "one case at a time: '%s' came after '%s'%s%s", value, path,
+                   is_json ? "; to write JSON into that file, say --json=" : "", is_json ? path : "");
         return EINVAL;
     }
     if (key == ARGP_KEY_ARG) {
@@ -112,6 +115,12 @@ error_t ost_cli_take(int key, char *value, struct argp_state *state)
         return ARGP_ERR_UNKNOWN;
     }
     return 0;
+}
+
+const char *ost_cli_json(const OstArguments *arguments)
+{
+    const char *path = arguments->text['j'];
+    return path && !*path ? "-" : path;
 }
 
 error_t ost_cli_list(struct argp_state *state, const char *name, const char *text, int most, int *count, int *integers,

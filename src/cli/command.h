@@ -37,6 +37,10 @@ typedef struct OstArguments {
 
 error_t ost_cli_take(int key, char *value, struct argp_state *state);
 
+/* Local. Where JSON goes of a command whose --json may do without a file: "-" then, standard output; NULL: not asked
+ * for. */
+const char *ost_cli_json(const OstArguments *arguments);
+
 /* Values of options; return 0, or EINVAL with a message. "1,2,3", up to `most`, into `integers` or `numbers`, of which
  * the other is NULL; and --max-time. */
 error_t ost_cli_list(struct argp_state *state, const char *name, const char *text, int most, int *count, int *integers,

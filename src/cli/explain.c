@@ -2,6 +2,7 @@
 #include "case/case_data.h"
 #include "case/plan.h"
 #include "cli/command.h"
+#include "cli/destination.h"
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
@@ -15,7 +16,8 @@
 #include <jansson.h>
 #include <stdio.h>
 
-static const struct argp_option options[] = {{"json", 'j', 0, 0, "Print what was found as JSON", 0}, {0}};
+static const struct argp_option options[] = {
+    {"json", 'j', "FILE", OPTION_ARG_OPTIONAL, "Print what was found as JSON, or write it here", 0}, {0}};
 
 static const struct argp explain_argp = {
     .options = options,
@@ -281,8 +283,9 @@ static json_t *seconds_json(const OstForecast *forecast)
     return seconds;
 }
 
-static int print_json(const OstCase *c, const OstPlan *plan, const Future *future, int ranks)
+static OstStatus write_json(const OstCase *c, const OstPlan *plan, const Future *future, const char *path)
 {
+    const int ranks = ost_size(c->ctx);
     json_t *root = json_pack(
         "{s:s, s:s, s:o, s:o, s:{s:s, s:s, s:o, s:f}, s:I, s:I, s:I, s:i, s:i, s:o, s:{s:f, s:f, s:f, s:f, s:f, s:f, "
         "s:f, s:f}, s:o, s:s, s:f}",
@@ -295,10 +298,10 @@ static int print_json(const OstCase *c, const OstPlan *plan, const Future *futur
         "in_all", plan->bytes_in_all, "free", plan->facts.free_memory, "output_file", plan->bytes_output,
         "with_libraries", future->forecast.with_libraries, "seconds", seconds_json(&future->forecast), "rates",
         future->rates, "iterations", future->forecast.iterations);
-    const int failed = !root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0;
-    putchar('\n');
-    json_decref(root);
-    return failed;
+    if (!root)
+        return OST_RAISE(c->ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
+                         c->path);
+    return ost_json_write(c->ctx, root, path);
 }
 
 static OstStatus explain(OstContext *ctx, void *input)
@@ -308,16 +311,15 @@ static OstStatus explain(OstContext *ctx, void *input)
     OstPlan plan;
     Future future;
     OstStatus status = OST_SUCCESS;
+    const char *json = ost_cli_json(arguments);
     OST_TRY_DONE(ost_cli_read(ctx, arguments, &c));
+    OST_TRY_DONE(ost_check_outputs(c, 1, &json));
     OST_TRY_DONE(make_plan(ctx, c, &plan));
     OST_TRY_DONE(foretell(ctx, c, &plan, &future));
-    if (ost_rank(ctx) == 0 && arguments->text['j']) {
-        if (print_json(c, &plan, &future, ost_size(ctx)))
-            status = OST_RAISE(ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
-                               c->path);
-    } else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET) {
+    if (ost_rank(ctx) == 0 && json)
+        status = write_json(c, &plan, &future, json);
+    else if (ost_rank(ctx) == 0 && ost_log_level(ctx) != OST_LOG_QUIET)
         print_plan(c, &plan, &future, ost_size(ctx));
-    }
     status = ost_agree(ctx, status);
 done:
     ost_case_destroy(&c);

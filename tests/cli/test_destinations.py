@@ -173,6 +173,17 @@ def check_says_where_it_goes(folder):
     check(finished.exit_code == 0 and not finished.errors, f"check: {finished.errors}")
     check("12 vertices, 12 tets, 1 region, 1 constraint on 4 vertices, 1 load\n" in finished.output
           and "to case.vtkhdf\n" in finished.output, f"check: {finished.output}")
+    for command in "check", "explain":
+        printed = run(command, "case.yaml", "--json", folder=folder).output
+        finished = run(command, "case.yaml", "--json=found.json", folder=folder)
+        check(finished.exit_code == 0 and not finished.output, f"{command}: {finished.output} {finished.errors}")
+        with open(os.path.join(folder, "found.json")) as written:
+            check(json.load(written).keys() == json.loads(printed).keys(), f"{command} --json=FILE: {printed}")
+        finished = run(command, "--json", "found.json", "case.yaml", folder=folder)
+        check(finished.exit_code == 2 and "say --json=found.json" in finished.errors, f"{command}: {finished.errors}")
+        finished = run(command, "case.yaml", "--json=case.yaml", folder=folder)
+        check(finished.exit_code == 2 and "case.yaml" in finished.errors, f"{command}: {finished.errors}")
+        check(read(folder, "case.yaml") == CASE.encode(), f"{command}: the case was written over")
     finished = run("check", "lost.yaml", "--json", ranks=2, folder=folder)
     check(finished.exit_code == 0, f"check --json: {finished.errors}")
     found = json.loads(finished.output)
