@@ -25,10 +25,11 @@ OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstS
     steps->rows = 3 * (size_t)problem->system->matrix->rows;
     steps->functions = (size_t)stiffness->complement->count;
     const size_t numbers = OST_PER_FUNCTION * steps->functions;
+    const OstLocal columns = problem->system->matrix->columns, nodes = problem->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &steps->p.rows, 4 * steps->rows);
     OST_THEN(OST_NEW(ctx, &steps->p.functions, 4 * numbers));
     OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
-    OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)problem->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)(columns > nodes ? columns : nodes))); /* rigid faces add rows */
     OST_THEN(OST_NEW(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
     for (size_t k = 1; k < 4; k++) {

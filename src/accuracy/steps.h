@@ -17,7 +17,7 @@ typedef struct OstSteps {
     double size;
     OstEnriched r, p, q, e; /* those of ghosts are 0, but in p */
     double *z;              /* of the rows alone */
-    double *u, *force;      /* of nodes: a displacement, and forces on it */
+    double *u, *force;      /* of nodes, or of columns if those are more: a displacement; forces on it */
     double products[2];     /* of the functions: r'B r, q'B r */
     double weight, gain;    /* r'B r before the last step, and what the step added to |e|² */
     int turns;              /* directions found so far */

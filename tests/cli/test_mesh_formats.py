@@ -210,14 +210,14 @@ NAMES = ['"top side"', "tip", '"X"', '"x"', '"x "', "Y", "y"]
 INP = "*NODE\n" + "".join(f"{4 * k + 1 + i}, {2 * k + (i == 1)}, {int(i == 2)}, {int(i == 3)}\n" for k in range(7) for i in range(4))
 INP += "".join(f"*ELEMENT, TYPE=C3D4, ELSET={name}\n{1 + k}, {4 * k + 1}, {4 * k + 2}, {4 * k + 3}, {4 * k + 4}\n"
                for k, name in enumerate(NAMES))
-write("names.inp", INP)
+write(folder, "names.inp", INP)
 EXPECTED = {"top side": 1, "tip": 1, "X": 1, "x": 1, "x ": 1, "Y": 2}
 for name in ("names.inp", "names.msh", "again.inp", "again.vtu", "last.inp"):
     held = inspect(name)
     check({r["name"]: r["tets"] for r in held["regions"]} == EXPECTED, f"{name}: {held['regions']}")
     if name != "last.inp":
         inspect(name, {"names.inp": "names.msh", "names.msh": "again.inp", "again.inp": "again.vtu"}.get(name, "last.inp"))
-done = run("mesh", write("long.inp", INP.replace("tip", "t" * 127)), folder=folder)
+done = run("mesh", write(folder, "long.inp", INP.replace("tip", "t" * 127)), folder=folder)
 check(done.exit_code == 2 and "long.inp:32:" in done.errors and "longer than 126 letters" in done.errors, done.errors)
 
 # --- meshio's sets, and whole numbers that look like them ---
