@@ -150,13 +150,26 @@ static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double
     return OST_SUCCESS;
 }
 
+static int is_far(const OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    return error_of(last) > pow(linear_is_near, power_of(adaption)) * adaption->request;
+}
+
 /* Quadratic tets come where much is missing: first without cutting any. */
 static int next_order(const OstAdaption *adaption, const OstCase *c)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    if (c->order != 0 || last->order == 2)
-        return last->order;
-    return error_of(last) > pow(linear_is_near, power_of(adaption)) * adaption->request ? 2 : 1;
+    return last->order == 2 || (c->order == 0 && is_far(adaption)) ? 2 : 1;
+}
+
+static void warn_of_order(const OstAdaption *adaption, const OstCase *c)
+{
+    if (c->order == 1 && adaption->level[0].error.known && is_far(adaption))
+        ost_warn(c->ctx,
+                 "%s: element: {order: 1} keeps linear tets, which take far more unknowns for an error of %.3g %% than "
+                 "quadratic ones; leave the order out, and they are taken",
+                 c->path, 100.0 * adaption->request);
 }
 
 /* What the marks are to reach: of shares that add up to |e|², or to the error of a quantity. */
@@ -263,6 +276,7 @@ static OstStatus adapt(OstAdaption *adaption, const OstCase *c)
     OST_TRY(ost_stage_open(adaption->stage, c));
     OST_TRY(ost_stage_solve(adaption->stage));
     OST_TRY(note_level(adaption, adaption->stage, start));
+    warn_of_order(adaption, c);
     OST_TRY(climb(adaption, c, start));
     if (adaption->end != OST_ADAPT_MET && adaption->end != OST_ADAPT_NO_ESTIMATE)
         foretell(adaption);

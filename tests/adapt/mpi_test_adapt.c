@@ -128,9 +128,14 @@ static void levels_start_from_the_last_answer(void **state)
 static void the_order_of_the_case_is_kept(void **state)
 {
     OstCase *c = NULL;
-    OstAdaption *adaption = adapt(BEAM "element: {order: 1}\naccuracy: {relative_error: 0.5}\n", &no_limits, &c);
+    const int before = ost_warning_count(ctx);
+    OstAdaption *adaption = adapt(BEAM "element: {order: 1}\naccuracy: {relative_error: 0.3}\n", &no_limits, &c);
     assert_int_equal(adaption->end, OST_ADAPT_MET);
     assert_true(adaption->count > 1);
+    if (ost_rank(ctx) == 0) {
+        assert_int_equal(ost_warning_count(ctx), before + 1);
+        assert_non_null(strstr(ost_warning(ctx, before), "leave the order out"));
+    }
     for (int l = 0; l < adaption->count; l++)
         assert_int_equal(adaption->level[l].order, 1);
     end(&adaption, &c);
