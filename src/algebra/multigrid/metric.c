@@ -15,10 +15,10 @@
 #include <stdio.h>
 
 /* Linear tets whose edges cross a stiff direction lock: their energy is far above that of the quadratic tets in the
- * same bending, so that they correct little. Gears, brackets, spindles and pins of 22,000 to 136,000 unknowns,
- * iterations to 1e-8 over linear tets and over aggregates of quadratic ones: 24 to 63 and 12 to 27 at a misalignment
- * of 1.2 to 2.5 (ratios of 10 to 300), 65 to 167 and 24 to 49 at 2.8 to 4.5 (1000). Setup takes 4 to 25 times as long
- * without linear tets, and 1.5 to 5 times the memory. */
+ * same bending, so that they correct little. Gears, brackets, spindles and pins of 22,000 to 41,000 unknowns,
+ * iterations to 1e-8 over linear tets and over aggregates of quadratic ones: 14 to 90 and 10 to 27 at a misalignment
+ * of 1.2 to 2.5 (ratios of 10 to 300), 65 to 167 and 24 to 49 at 2.8 to 4.5 (1000). Without linear tets setup took 6 to
+ * 23 times as long on three bodies, and 4 to 5 times the memory on two. */
 const double ost_metric_misaligned = 2.5;
 static const double slow_from = 1.5;            /* linear tets correct slowly where edges are further off */
 static const double quadratic_aggregate = 14.0; /* of 16: 38 iterations become 41 */
