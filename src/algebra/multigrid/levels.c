@@ -40,6 +40,8 @@ static const double row_share = 1.0 / 3.0, most_coarse_nodes = 27.0, most_below_
  * further, up to so many unknowns. */
 static const OstGlobal flat_unknowns = 250000;
 
+static const double held = 1e-6; /* of a rotation's energy is added to it */
+
 /* The levels under construction, from the finest down. */
 typedef struct Coarsening {
     OstContext *ctx;
@@ -208,6 +210,60 @@ done:
     return status;
 }
 
+/* Nodes one by one, as the rows of the vertices' prolongator have columns of their own. */
+static OstStatus list_nodes(OstContext *ctx, OstLocal nodes, OstSmootherBlocks *each)
+{
+    OST_TRY(OST_NEW(ctx, &each->node_start, nodes + 1));
+    OST_TRY(OST_NEW(ctx, &each->node, nodes));
+    each->count = nodes;
+    for (OstLocal i = 0; i < nodes; i++)
+        each->node[i] = each->node_start[i + 1] = i;
+    for (OstLocal i = 0; i < nodes; i++)
+        each->node_start[i + 1]++;
+    return OST_SUCCESS;
+}
+
+/* Rotations that are alike everywhere move nothing: their energy must not be 0 where the level is factored. */
+static void hold_rotations(OstDoubleMatrix *coarse)
+{
+    for (OstLocal v = 0; v < coarse->rows; v++) {
+        double *block = ost_double_matrix_diagonal(coarse, v);
+        for (int i = OST_MODES / 2; i < OST_MODES; i++)
+            block[(OST_MODES + 1) * i] *= 1.0 + held;
+    }
+}
+
+/* Adds the level of the vertices below the finest. */
+static OstStatus add_vertices(Coarsening *work, OstVertexSpace *vertices)
+{
+    OstLevels *levels = work->levels;
+    OstSmootherBlocks each = {0};
+    OstDoubleMatrix *coarse = NULL;
+    OstGlobal unknowns = OST_MODES * (OstGlobal)vertices->graph->nodes;
+    OstStatus status;
+    OST_TRY_DONE(ost_sum_numbers(work->ctx, 1, &unknowns));
+    OST_TRY_DONE(ost_smoother_create(levels->matrix[0], levels->graph[0], &work->options, &levels->smoother[0]));
+    ost_metric_graph_destroy(&levels->graph[0]);
+    OST_FREE(*work->modes);
+    levels->prolongator[0] = vertices->prolongator;
+    levels->graph[1] = vertices->graph;
+    *work->modes = vertices->modes;
+    *vertices = (OstVertexSpace){.first = vertices->first};
+    OST_TRY_DONE(ost_agree(work->ctx, list_nodes(work->ctx, levels->prolongator[0]->rows, &each)));
+    OST_TRY_DONE(ost_galerkin_create(levels->coarsest, &each, levels->prolongator[0], vertices->first, &coarse));
+    ost_double_matrix_mend_diagonal(coarse);
+    hold_rotations(coarse);
+    ost_double_matrix_destroy(&levels->coarsest);
+    levels->coarsest = coarse;
+    OST_TRY_DONE(gather(work, vertices->first, unknowns, &levels->coarsest));
+    OST_TRY_DONE(create_matrix(&work->options, levels, 1));
+    levels->count++;
+    work->unknowns = unknowns;
+done:
+    OST_FREE(each.node_start, each.node);
+    return status;
+}
+
 static OstStatus coarsen(Coarsening *work)
 {
     OstLevels *levels = work->levels;
@@ -243,7 +299,8 @@ static OstStatus find_columns(Coarsening *work)
 }
 
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels)
+                            OstMetricGraph **finest_graph, OstVertexSpace *vertices, const OstSolverOptions *options,
+                            OstLevels *levels)
 {
     Coarsening work = {.ctx = matrix->ctx,
                        .options = *options,
@@ -260,6 +317,8 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
         status = find_columns(&work);
     OST_THEN(create_matrix(&work.options, levels, 0));
     OST_THEN(adapt_options(levels->graph[0], &work.options));
+    if (status == OST_SUCCESS && vertices)
+        status = add_vertices(&work, vertices);
     OST_THEN(coarsen(&work));
     ost_aggregates_destroy(&work.columns);
     if (status != OST_SUCCESS)

@@ -6,6 +6,7 @@
 #include "algebra/level/level_matrix.h"
 #include "algebra/level/prolongator.h"
 #include "algebra/multigrid/smoother.h"
+#include "algebra/multigrid/vertices.h"
 
 /* The levels of smoothed aggregation: their matrices, and the prolongators and smoothers. Level 0 is the finest. */
 typedef struct OstLevels {
@@ -21,9 +22,10 @@ typedef struct OstLevels {
 /* Collective. The levels of S A S^T (of A, if scaling is NULL), whose near-null space is `modes`: 6 columns of 3 × rows
  * numbers. Takes over modes and graph, and empties the caller's; matrix and scaling must outlive the levels. A matrix
  * of at most options->coarsest_unknowns, or without anything to aggregate, stays the only level; `coarsest` is then a
- * view of it. */
+ * view of it. The second level is that of `vertices`, which is emptied, or of aggregates where that is NULL. */
 OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scaling, double **modes,
-                            OstMetricGraph **finest_graph, const OstSolverOptions *options, OstLevels *levels);
+                            OstMetricGraph **finest_graph, OstVertexSpace *vertices, const OstSolverOptions *options,
+                            OstLevels *levels);
 void ost_levels_clear(OstLevels *levels);
 
 #endif

@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Linear tets whose edges cross a stiff direction lock: their energy is far above that of the quadratic tets in the
  * same bending, so that they correct little. Gears, brackets, spindles and pins of 22,000 to 41,000 unknowns,
@@ -95,13 +96,14 @@ static OstStatus measure_levels(OstMetric *metric, const OstLevels *levels)
 
 /* Builds the levels of a matrix by aggregation; takes over its graph, and empties the caller's. */
 static OstStatus build_levels(OstMetric *metric, const OstBlockMatrix *matrix, const OstScaling *scaling,
-                              const OstSolverGeometry *geometry, OstMetricGraph **graph, OstLevels *levels)
+                              const OstSolverGeometry *geometry, OstMetricGraph **graph, OstVertexSpace *vertices,
+                              OstLevels *levels)
 {
     double *modes = NULL;
     OstStatus status;
     OST_TRY_DONE(scale_modes(scaling, geometry->modes, &modes));
     ost_geometry_release(geometry);
-    OST_TRY_DONE(ost_levels_create(matrix, scaling, &modes, graph, &metric->options, levels));
+    OST_TRY_DONE(ost_levels_create(matrix, scaling, &modes, graph, vertices, &metric->options, levels));
     OST_TRY_DONE(measure_levels(metric, levels));
 done:
     OST_FREE(modes);
@@ -134,7 +136,7 @@ static OstStatus build_linear(OstMetric *metric, const OstCoarseSpace *space, co
     metric->options.most_levels = metric->options.most_levels > 1 ? metric->options.most_levels - 1 : 1;
     OST_TRY_DONE(ost_scaling_create(space->matrix, &metric->linear_scaling));
     OST_TRY_DONE(ost_metric_graph_create(space->matrix, &geometry, &graph));
-    OST_TRY_DONE(build_levels(metric, space->matrix, metric->linear_scaling, &geometry, &graph, levels));
+    OST_TRY_DONE(build_levels(metric, space->matrix, metric->linear_scaling, &geometry, &graph, NULL, levels));
     OST_TRY_DONE(count_quadratic(metric, space->matrix));
 done:
     ost_metric_graph_destroy(&graph);
@@ -187,6 +189,20 @@ static OstStatus skip_linear(OstMetric *metric, const OstMetricGraph *graph, con
 /* Builds the levels of the linear tets, and above them that of the quadratic ones; or those of the quadratic ones
  * alone.
  */
+static OstStatus build_vertices(OstMetric *metric, const OstSolverGeometry *geometry, OstMetricGraph **graph,
+                                OstLevels *levels)
+{
+    const OstCoarseSpace *space = geometry->coarse;
+    OstVertexSpace vertices = {0};
+    OstStatus status;
+    OST_TRY_DONE(ost_scaling_create(space->matrix, &metric->linear_scaling));
+    OST_TRY_DONE(ost_vertex_space_create(space, geometry, metric->scaling, metric->linear_scaling, &vertices));
+    OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, graph, &vertices, levels));
+done:
+    ost_vertex_space_clear(&vertices);
+    return status;
+}
+
 static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry, OstLevels *levels,
                                  OstQuadraticLevel **quadratic)
 {
@@ -196,8 +212,12 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
     OstStatus status;
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
     OST_TRY_DONE(skip_linear(metric, graph, geometry->facts, &skip));
-    if (skip) {
-        OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, levels));
+    if (getenv("ROT")) {
+        const char *d = getenv("DEG");
+        metric->options.smoother_degree += d ? atoi(d) : 2;
+        OST_TRY_DONE(build_vertices(metric, geometry, &graph, levels));
+    } else if (skip && !getenv("LIN")) {
+        OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, NULL, levels));
     } else {
         metric->over_linear = 1;
         ost_geometry_release(geometry);
@@ -218,7 +238,7 @@ static OstStatus build_alone(OstMetric *metric, const OstSolverGeometry *geometr
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
     OST_TRY_DONE(ost_metric_graph_flatness(graph, &flatness));
     metric->options.columns = flatness > flattest && metric->options.method != OST_METHOD_TWO_LEVEL;
-    OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, levels));
+    OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, NULL, levels));
 done:
     ost_metric_graph_destroy(&graph);
     return status;
