@@ -27,8 +27,7 @@ static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to
 /* What two steps may add, where errors of other loads gave a start, to be the last. */
 static const double little_new = 0.03;
 
-/* Of steps; SLOW: where multigrid goes over linear tets that lock. */
-enum { LEAST = 3, LEAST_SLOW = 5, most_steps = 24 };
+enum { least_steps = 3, most_steps = 24 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
 {
@@ -152,7 +151,7 @@ double ost_search_true_square(const Search *search, double square)
 /* What is known after some steps; `sum` is |e|² so far, `pair` and `last` what the last two steps and the two before
  * added. */
 typedef struct Progress {
-    int steps, least;
+    int steps;
     double start, sum, gain, pair, last, to_come;
 } Progress;
 
@@ -160,9 +159,9 @@ static int is_enough(const Enough *enough, const Progress *now)
 {
     const int n = now->steps, is_pair = n % 2 == 0;
     const double by_gains = gains_to_come(now->pair, now->last), square = now->sum + now->to_come;
-    if (n < now->least)
+    if (n < least_steps)
         return is_pair && now->start > 0.0 && now->pair <= little_new * now->sum;
-    if (enough->by_left && (is_pair || n == now->least) && now->to_come <= share_to_come * square &&
+    if (enough->by_left && (is_pair || n == least_steps) && now->to_come <= share_to_come * square &&
         (now->to_come <= small_to_come * square || now->to_come <= per_left * falling * now->gain))
         return 1;
     return is_pair && (n > 4 || !enough->by_left) && now->pair <= enough->gain * now->sum &&
@@ -174,7 +173,7 @@ OstStatus ost_search_iterate(Search *search, double start, double *square)
     const OstEstimate *estimate = search->estimate;
     const Enough *enough = search->of_adjoint ? &estimate->enough_of_adjoint : &estimate->enough;
     OstSteps *steps = &search->steps;
-    Progress now = {.least = ost_solver_is_slow(steps->solver) ? LEAST_SLOW : LEAST, .start = start, .sum = start};
+    Progress now = {.start = start, .sum = start};
     ost_steps_start(steps);
     while (now.steps < most_steps && !steps->failed) {
         OST_TRY(ost_steps_next(steps));

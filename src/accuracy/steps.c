@@ -11,9 +11,8 @@
 #include <string.h>
 
 /* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take one
- * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. Over linear tets that lock,
- * steps are short of what is left by more. */
-static const double settled = 0.15, settled_slow = 0.05;
+ * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
+static const double settled = 0.15;
 enum { MOST_TO_SETTLE = 20 };
 
 OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps)
@@ -234,9 +233,8 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
 
 OstStatus ost_steps_settle(OstSteps *steps)
 {
-    const double least = ost_solver_is_slow(steps->solver) ? settled_slow : settled;
     double length = 0.0, share = 1.0;
-    for (int step = 0; step < MOST_TO_SETTLE && share > least; step++) {
+    for (int step = 0; step < MOST_TO_SETTLE && share > settled; step++) {
         OST_TRY(turn_rows(steps, length));
         if (!(steps->weight > 0.0))
             break;

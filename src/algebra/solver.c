@@ -535,11 +535,6 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     return status;
 }
 
-int ost_solver_is_slow(const OstSolver *solver)
-{
-    return solver->metric && ost_metric_is_slow(solver->metric);
-}
-
 OstStatus ost_solver_precondition(OstSolver *solver, int half, const double *r, double *z, int *found)
 {
     OstCgSystem system;

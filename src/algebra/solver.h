@@ -71,9 +71,6 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
 OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u,
                                  double *e_u, int *found);
 
-/* Local. Does a cycle of the current strategy leave much of an error, as linear tets lock that it goes over? */
-int ost_solver_is_slow(const OstSolver *solver);
-
 /* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
  * `half`: of multigrid half a cycle will do, which may be unsymmetric. *found: 0 if the solver has no strategy. */
 OstStatus ost_solver_precondition(OstSolver *solver, int half, const double *r, double *z, int *found);

@@ -13,20 +13,21 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 /* Linear tets whose edges cross a stiff direction lock: their energy is far above that of the quadratic tets in the
- * same bending, so that they correct little. Gears, brackets, spindles and pins of 22,000 to 41,000 unknowns,
- * iterations to 1e-8 over linear tets and over aggregates of quadratic ones: 14 to 90 and 10 to 27 at a misalignment
- * of 1.2 to 2.5 (ratios of 10 to 300), 65 to 167 and 24 to 49 at 2.8 to 4.5 (1000). Without linear tets setup took 6 to
- * 23 times as long on three bodies, and 4 to 5 times the memory on two. */
-const double ost_metric_misaligned = 2.5;
-static const double slow_from = 1.5;            /* linear tets correct slowly where edges are further off */
+ * same bending, so that they correct little. Vertices that also turn do not lock, and their level has four times the
+ * nonzeros. Gears, brackets, spindles and pins of 9,000 to 99,000 unknowns, iterations to 1e-8 over linear tets and
+ * over turning vertices: 21 to 27 and 12 to 15 at a ratio of 10 (misalignment 1.1 to 1.25; seconds about the same), 50
+ * to 57 and 21 to 24 at 100 (1.5 to 2.0), 55 to 107 and 19 to 43 at 1000 (2.8 to 5.6). */
+const double ost_metric_misaligned = 1.5;
 static const double quadratic_aggregate = 14.0; /* of 16: 38 iterations become 41 */
-enum { MISALIGNED_MORE_DEGREE = 2 };
+enum { LOCKED_MORE_DEGREE = 2 };
 
-/* So do linear tets that are longer than the body is thick: their energy in bending is too large by the square of
- * that. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times stiffer across: 7.2, and 352 iterations over linear tets, 46
+/* What quadratic tets are corrected by. */
+typedef enum Correction { LINEAR_TETS, TURNING_VERTICES, AGGREGATES } Correction;
+
+/* Linear tets that are longer than the body is thick lock too: their energy in bending is too large by the square of
+ * that. Turning vertices do not bend as one through the thickness. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times stiffer across: 7.2, and 352 iterations over linear tets, 46
  * without. */
 static const double longest = 5.0;
 /* Linear tets in a plate, and how much longer than thick they are, in the metric: from this on, the softest motion of a
@@ -43,7 +44,6 @@ struct OstMetric {
     OstCycle *cycle;
     OstScaling *linear_scaling; /* of the linear tets, for quadratic ones */
     int over_linear;            /* are they a level? */
-    int is_slow;                /* are they one, and edges off the stiff directions? */
     int levels;
     OstGlobal level_unknowns[OST_MAX_LEVELS];
     double operator_complexity;
@@ -154,43 +154,46 @@ static OstStatus find_length(const OstMetricGraph *graph, const OstSolverFacts *
     return OST_SUCCESS;
 }
 
-static void set_options_without_linear(OstSolverOptions *options, int locks)
+static void set_options_of_aggregates(OstSolverOptions *options)
 {
     if (!(options->given & OST_GIVEN_AGGREGATE) && options->aggregate_nodes > quadratic_aggregate)
         options->aggregate_nodes = quadratic_aggregate;
     options->own_blocks = options->aggregate_nodes <= largest_block;
-    if (locks)
-        options->precise *= 2; /* the finest level has the softest motions */
-    options->columns = locks && options->method != OST_METHOD_TWO_LEVEL ? 2 : 0;
+    options->precise *= 2; /* the finest level has the softest motions */
+    options->columns = options->method != OST_METHOD_TWO_LEVEL ? 2 : 0;
     if (options->method != OST_METHOD_STRONG && !(options->given & OST_GIVEN_DEGREE))
-        options->smoother_degree += MISALIGNED_MORE_DEGREE;
+        options->smoother_degree += LOCKED_MORE_DEGREE;
 }
 
-/* Should aggregates of the quadratic tets' nodes take the place of the linear tets? If so, sets their options. Linear
- * tets also lock in plates and in cells that are far longer than thick; STRONG therefore has none. */
-static OstStatus skip_linear(OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts, int *skip)
+/* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough. */
+static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts,
+                                   Correction *correction)
 {
+    static const char *const name[] = {"linear tets", "vertices that also turn", "aggregates of quadratic tets' nodes"};
     double misalignment, length;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
     OST_TRY(find_length(graph, facts, &length));
-    const int locks = length > longest;
-    *skip = metric->options.method == OST_METHOD_STRONG || misalignment > ost_metric_misaligned || locks;
-    metric->is_slow = !*skip && misalignment > slow_from;
-    if (!*skip)
-        return OST_SUCCESS;
-    set_options_without_linear(&metric->options, locks);
+    const int turns = misalignment > ost_metric_misaligned || metric->options.method != OST_METHOD_METRIC;
+    *correction = length > longest ? AGGREGATES : turns ? TURNING_VERTICES : LINEAR_TETS;
     ost_log(metric->ctx, OST_LOG_VERBOSE,
-            "solver: aggregates of quadratic tets: linear ones lock where edges cross the stiff directions (here %.2g, "
-            "aligned: 1) or are longer than the body is thick (%.2g)",
-            misalignment, length);
+            "solver: quadratic tets over %s: edges cross the stiff directions by %.2g (along them: 1), and are %.2g "
+            "times as long as the body is thick",
+            name[*correction], misalignment, length);
     return OST_SUCCESS;
 }
 
-/* Builds the levels of the linear tets, and above them that of the quadratic ones; or those of the quadratic ones
- * alone.
- */
-static OstStatus build_vertices(OstMetric *metric, const OstSolverGeometry *geometry, OstMetricGraph **graph,
-                                OstLevels *levels)
+static OstStatus build_over_linear(OstMetric *metric, const OstSolverGeometry *geometry, const OstMetricGraph *graph,
+                                   OstLevels *levels, OstQuadraticLevel **quadratic)
+{
+    metric->over_linear = 1;
+    ost_geometry_release(geometry);
+    OST_TRY(build_linear(metric, geometry->coarse, geometry->facts, levels));
+    return ost_quadratic_level_create(metric->matrix, graph, geometry->coarse, metric->scaling, metric->linear_scaling,
+                                      &metric->options, quadratic);
+}
+
+static OstStatus build_over_vertices(OstMetric *metric, const OstSolverGeometry *geometry, OstMetricGraph **graph,
+                                     OstLevels *levels)
 {
     const OstCoarseSpace *space = geometry->coarse;
     OstVertexSpace vertices = {0};
@@ -200,30 +203,26 @@ static OstStatus build_vertices(OstMetric *metric, const OstSolverGeometry *geom
     OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, graph, &vertices, levels));
 done:
     ost_vertex_space_clear(&vertices);
+    ost_scaling_destroy(&metric->linear_scaling);
     return status;
 }
 
+/* Builds the levels of quadratic tets; `quadratic` is the finest one where they go over linear tets. */
 static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geometry, OstLevels *levels,
                                  OstQuadraticLevel **quadratic)
 {
-    const OstCoarseSpace *space = geometry->coarse;
     OstMetricGraph *graph = NULL;
-    int skip = 0;
+    Correction correction = LINEAR_TETS;
     OstStatus status;
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
-    OST_TRY_DONE(skip_linear(metric, graph, geometry->facts, &skip));
-    if (getenv("ROT")) {
-        const char *d = getenv("DEG");
-        metric->options.smoother_degree += d ? atoi(d) : 2;
-        OST_TRY_DONE(build_vertices(metric, geometry, &graph, levels));
-    } else if (skip && !getenv("LIN")) {
-        OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, NULL, levels));
+    OST_TRY_DONE(choose_correction(metric, graph, geometry->facts, &correction));
+    if (correction == LINEAR_TETS) {
+        OST_TRY_DONE(build_over_linear(metric, geometry, graph, levels, quadratic));
+    } else if (correction == TURNING_VERTICES) {
+        OST_TRY_DONE(build_over_vertices(metric, geometry, &graph, levels));
     } else {
-        metric->over_linear = 1;
-        ost_geometry_release(geometry);
-        OST_TRY_DONE(build_linear(metric, space, geometry->facts, levels));
-        OST_TRY_DONE(ost_quadratic_level_create(metric->matrix, graph, space, metric->scaling, metric->linear_scaling,
-                                                &metric->options, quadratic));
+        set_options_of_aggregates(&metric->options);
+        OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, NULL, levels));
     }
 done:
     ost_metric_graph_destroy(&graph);
@@ -283,11 +282,6 @@ OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverG
 int ost_metric_is_over_linear(const OstMetric *metric)
 {
     return metric->over_linear;
-}
-
-int ost_metric_is_slow(const OstMetric *metric)
-{
-    return metric->is_slow;
 }
 
 void ost_metric_strengthen(OstMetric *metric, const OstSolverOptions *options)

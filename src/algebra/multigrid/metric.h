@@ -11,7 +11,7 @@
  * Chebyshev smoothing. */
 typedef struct OstMetric OstMetric;
 
-/* Quadratic tets whose edges are further off the stiff directions are aggregated without the linear tets. */
+/* Quadratic tets whose edges are further off the stiff directions go over vertices that turn, not over linear tets. */
 extern const double ost_metric_misaligned;
 
 /* Collective. How far the matrix's edges are from the stiff directions (ost_metric_graph_misalignment). */
@@ -25,9 +25,6 @@ void ost_metric_destroy(OstMetric **metric);
 
 /* Local. Are linear tets the first coarse level of quadratic ones? */
 int ost_metric_is_over_linear(const OstMetric *metric);
-
-/* Local. Are they, though edges cross the stiff directions? Then a cycle leaves more of an error. */
-int ost_metric_is_slow(const OstMetric *metric);
 
 /* Local. Takes the smoother's degree and ratio from `options` and raises the eigenvalue estimates; the levels and the
  * smoothers' blocks stay. */
