@@ -31,7 +31,7 @@ static void set_up_down_to(int coarsest, const ElasticBlock *block, Setup *s)
     assert_success(ost_metric_graph_create(s->problem.matrix, &s->problem.geometry, &graph));
     assert_success(OST_NEW(ctx, &taken, 6 * n));
     memcpy(taken, s->modes, 6 * n * sizeof *taken);
-    assert_success(ost_levels_create(s->problem.matrix, s->scaling, &taken, &graph, &s->options, &s->levels));
+    assert_success(ost_levels_create(s->problem.matrix, s->scaling, &taken, &graph, NULL, &s->options, &s->levels));
     assert_null(taken);
     assert_true(s->levels.count >= 3);
 }

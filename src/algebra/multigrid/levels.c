@@ -52,6 +52,7 @@ typedef struct Coarsening {
     int stride;             /* every how manyth rank has nodes of it */
     OstAggregates *columns; /* of a plate, until they are the finest level's aggregates; else NULL */
     int by_columns;         /* are they the aggregates at hand? */
+    int has_vertices;       /* is the second level that of vertices? */
 } Coarsening;
 
 static OstStatus adapt_options(const OstMetricGraph *graph, OstSolverOptions *options)
@@ -97,7 +98,7 @@ static OstStatus choose_target(const Coarsening *work, int l, double *target)
     const OstGlobal square = matrix->size * matrix->size;
     OstGlobal entries[2] = {matrix->nonzeros, square * matrix->rows};
     *target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes;
-    const double most = options->own_blocks ? most_below_quadratic : most_coarse_nodes;
+    const double most = options->own_blocks || work->has_vertices ? most_below_quadratic : most_coarse_nodes;
     if (l == 0 || options->given & OST_GIVEN_COARSE_AGGREGATE || ost_metric_graph_is_uneven(work->levels->graph[l]))
         return OST_SUCCESS;
     OST_TRY(ost_sum_numbers(work->ctx, 2, entries));
@@ -307,7 +308,8 @@ OstStatus ost_levels_create(const OstBlockMatrix *matrix, const OstScaling *scal
                        .levels = levels,
                        .modes = modes,
                        .unknowns = 3 * matrix->global_rows,
-                       .stride = 1};
+                       .stride = 1,
+                       .has_vertices = vertices != NULL};
     memset(levels, 0, sizeof *levels);
     levels->count = 1;
     levels->graph[0] = *finest_graph;

@@ -2,6 +2,7 @@
 #include "algebra/multigrid/metric.h"
 
 #include "algebra/aggregation/alignment.h"
+#include "algebra/aggregation/columns.h"
 #include "algebra/krylov/cg.h"
 #include "algebra/matrix/vector.h"
 #include "algebra/multigrid/cycle.h"
@@ -27,8 +28,8 @@ enum { LOCKED_MORE_DEGREE = 2 };
 typedef enum Correction { LINEAR_TETS, TURNING_VERTICES, AGGREGATES } Correction;
 
 /* Linear tets that are longer than the body is thick lock too: their energy in bending is too large by the square of
- * that. Turning vertices do not bend as one through the thickness. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times stiffer across: 7.2, and 352 iterations over linear tets, 46
- * without. */
+ * that. Turning vertices do not bend as one through the thickness. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times
+ * stiffer across: 7.2, and 352 iterations over linear tets, 46 without. */
 static const double longest = 5.0;
 /* Linear tets in a plate, and how much longer than thick they are, in the metric: from this on, the softest motion of a
  * smoother's block has less energy than single precision holds. A plate 1000 : 1 of 24 x 24 x 2 hexes: 140, and 40
@@ -165,16 +166,28 @@ static void set_options_of_aggregates(OstSolverOptions *options)
         options->smoother_degree += LOCKED_MORE_DEGREE;
 }
 
+static OstStatus has_columns(const OstMetricGraph *graph, int *has)
+{
+    OstAggregates *columns = NULL;
+    OST_TRY(ost_columns_create(graph, &columns));
+    *has = columns != NULL;
+    ost_aggregates_destroy(&columns);
+    return OST_SUCCESS;
+}
+
 /* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough. */
 static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts,
                                    Correction *correction)
 {
     static const char *const name[] = {"linear tets", "vertices that also turn", "aggregates of quadratic tets' nodes"};
     double misalignment, length;
+    int is_plate = 0;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
     OST_TRY(find_length(graph, facts, &length));
-    const int turns = misalignment > ost_metric_misaligned || metric->options.method != OST_METHOD_METRIC;
-    *correction = length > longest ? AGGREGATES : turns ? TURNING_VERTICES : LINEAR_TETS;
+    const int crosses = misalignment > ost_metric_misaligned, locks = length > longest;
+    const int turns = crosses || metric->options.method != OST_METHOD_METRIC;
+    OST_TRY(crosses && locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
+    *correction = locks && (is_plate || !crosses) ? AGGREGATES : turns ? TURNING_VERTICES : LINEAR_TETS;
     ost_log(metric->ctx, OST_LOG_VERBOSE,
             "solver: quadratic tets over %s: edges cross the stiff directions by %.2g (along them: 1), and are %.2g "
             "times as long as the body is thick",
