@@ -14,8 +14,8 @@ typedef enum {
     OST_METHOD_METRIC, /* AztecOO's CG, ML's cycle over aggregates that are round in the material's metric, block
                           smoothers */
     OST_METHOD_STRONG, /* the same hierarchy with a smoother of higher degree over a wider interval */
-    OST_METHOD_TWO_LEVEL, /* strong smoothing over aggregates whose matrix is factored; quadratic tets: over the linear
-                             ones, factored */
+    OST_METHOD_TWO_LEVEL, /* strong smoothing over aggregates whose matrix is factored; quadratic tets: over their
+                             vertices, which also turn */
     OST_METHOD_DIRECT     /* MUMPS, refined by CG to the requested residual */
 } OstMethod;
 

@@ -160,7 +160,7 @@ static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
 {
     const OstStatus status = build(solver, solver->plan.first, solver->step, &solver->steps);
     const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
-    if (!has_no_room || !may_change(solver) || solver->plan.first != OST_METHOD_DIRECT)
+    if (!has_no_room || !may_change(solver) || solver->plan.first < OST_METHOD_TWO_LEVEL)
         return status;
     const OstSolverFacts facts = facts_of(solver);
     ost_solver_plan_without_factors(options, &facts, &solver->plan);

@@ -24,6 +24,7 @@ static const struct {
     int more_degree;
 } smaller_above[2] = {{0.495, 10.0, 1}, {0.45, 15.0, 0}};
 
+static const double of_vertices = 0.125;         /* of the bytes of the whole matrix's factors */
 static const double uneven = 1e3, sliver = 1e-2; /* ratio of moduli; quality of a tet */
 
 static void say(OstSolverPlan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -63,14 +64,19 @@ static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
         plan->options.factor_memory > 0.0 ? "allowed" : "free");
 }
 
-/* Is a factorisation of so many unknowns quicker than multigrid? Asked of quadratic tets, of which a hierarchy costs
- * more than of linear ones; with memory to spare, as the rule for it is a rough one. */
-static int factoring_is_quicker(const OstSolverFacts *facts, const OstSolverOptions *options)
+/* Is a factorisation quicker than multigrid? Asked of quadratic tets, of which a hierarchy costs more than of linear
+ * ones; with memory to spare, as the rule for it is a rough one. Factors of the vertices' matrix are an eighth. */
+static OstMethod quickest(const OstSolverFacts *facts, const OstSolverOptions *options)
 {
-    const double allowed = allowed_memory(options, facts);
-    const int has_room = !(allowed > 0.0) || 2.0 * ost_solver_factor_bytes(facts->unknowns) <= allowed;
-    return facts->thickness > 0.0 && !facts->repeated && has_room &&
-           ost_solver_factor_seconds(facts) < ost_solver_multigrid_seconds(facts);
+    const double allowed = allowed_memory(options, facts), bytes = 2.0 * ost_solver_factor_bytes(facts->unknowns);
+    const double multigrid = ost_solver_multigrid_seconds(facts), factors = ost_solver_factor_seconds(facts);
+    const double two_level = ost_solver_two_level_seconds(facts);
+    if (!(facts->thickness > 0.0) || facts->repeated)
+        return OST_METHOD_METRIC;
+    if ((!(allowed > 0.0) || bytes <= allowed) && factors < fmin(multigrid, two_level))
+        return OST_METHOD_DIRECT;
+    return (!(allowed > 0.0) || of_vertices * bytes <= allowed) && two_level < multigrid ? OST_METHOD_TWO_LEVEL
+                                                                                         : OST_METHOD_METRIC;
 }
 
 static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
@@ -84,7 +90,13 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
     } else if (facts->unknowns < direct_below) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
-    } else if (fits && factoring_is_quicker(facts, &plan->options)) {
+    } else if (fits && quickest(facts, &plan->options) == OST_METHOD_TWO_LEVEL) {
+        plan->first = OST_METHOD_TWO_LEVEL;
+        say(plan,
+            "%lld unknowns of quadratic tets whose edges cross the stiff directions by %.3g (along them: 1): over "
+            "vertices whose matrix is factored about %.2g s, multigrid %.2g s",
+            unknowns, facts->misalignment, ost_solver_two_level_seconds(facts), ost_solver_multigrid_seconds(facts));
+    } else if (fits && quickest(facts, &plan->options) == OST_METHOD_DIRECT) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns of quadratic tets, %.2g nodes across: factoring takes about %.2g s, multigrid %.2g s",
             unknowns, facts->thickness, ost_solver_factor_seconds(facts), ost_solver_multigrid_seconds(facts));

@@ -4,9 +4,14 @@
 
 #include "orthostat/solver.h"
 
-/* Local. Seconds that quadratic tets take, setup and solve, by a factorisation and by multigrid: rates of the machine
- * on which docs/performance.md was made, of which only the ratio matters. `facts` must have the thickness. */
+/* Local. Do quadratic tets of METRIC go over vertices that turn, as edges cross the stiff directions? */
+int ost_solver_is_over_vertices(const OstSolverFacts *facts);
+
+/* Local. Seconds that quadratic tets take, setup and solve, by a factorisation, by multigrid, and over the vertices'
+ * level, factored (infinite where that is not planned): rates of the machine on which docs/performance.md was made, of
+ * which only the ratios matter. `facts` must have the thickness. */
 double ost_solver_factor_seconds(const OstSolverFacts *facts);
 double ost_solver_multigrid_seconds(const OstSolverFacts *facts);
+double ost_solver_two_level_seconds(const OstSolverFacts *facts);
 
 #endif

@@ -34,7 +34,7 @@ typedef struct OstPlanLevels {
  * stiff directions, it takes aggregates of their nodes in place of the linear tets (algebra/multigrid/metric.c), and
  * where cells are longer still the columns of nodes through the wall, which are not coarsened further
  * (algebra/aggregation/columns.h). */
-typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS, OST_COARSEN_CROSSED } OstCoarsening;
+typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS, OST_COARSEN_VERTICES } OstCoarsening;
 
 typedef struct OstPlan {
     OstEffects effects;

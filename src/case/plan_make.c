@@ -62,10 +62,10 @@ static void count_recovered(const OstCase *c, OstEffectFacts *facts)
     }
 }
 
-/* Edges of a mesh from a file follow no direction, as a rule. From this ratio of moduli on, that is too far off the
- * stiff ones for linear tets; the solver measures how far. Gears, brackets, spindles and pins: 2.0 to 2.9 at 300, 2.8
- * to 4.5 at 1000. */
-static const double crossing = 400.0, usual_misalignment = 3.0;
+/* Edges of a mesh from a file follow no direction, as a rule. How far they are off the stiff ones, which the solver
+ * measures, is 1 + this × the root of the ratio of moduli: gears, brackets, spindles and pins have 1.1 to 1.25 at 10,
+ * 1.5 to 2.0 at 100, 2.8 to 5.6 at 1000, 7.6 at 1e4, 22 at 1e5, 67 to 97 at 1e6. */
+static const double usual_crossing = 0.07;
 
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
@@ -95,8 +95,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
     plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
     ost_plan_materials(c, mesh, &facts, &plan->facts);
-    if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > crossing)
-        plan->facts.misalignment = usual_misalignment;
+    if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > 1.0)
+        plan->facts.misalignment = 1.0 + usual_crossing * sqrt(plan->facts.anisotropy);
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
     count_springs(c, &facts);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/solver_plan.h"
+#include "algebra/solver_seconds.h"
 #include "case/plan.h"
 #include "fields/output_field.h"
 
@@ -38,9 +39,9 @@ static const double galerkin_power = 1.7, usual_aggregate = 38.0;
 static const double quadratic_transient = 200.0;
 
 /* Multigrid takes aggregates of quadratic tets' nodes where cells are longer than so many thicknesses, and columns
- * where they are longer than so many; what a node has then on top, at the peak, and what where edges cross the stiff
- * directions. Measured. */
-static const double longest = 5.0, longest_of_columns = 8.0, of_coarsening[4] = {0.0, 1900.0, 3200.0, 5000.0};
+ * where they are longer than so many; what a node has then on top, at the peak, and what where it goes over vertices
+ * that turn. Measured. */
+static const double longest = 5.0, longest_of_columns = 8.0, of_coarsening[4] = {0.0, 1900.0, 3200.0, 1050.0};
 
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
@@ -114,8 +115,8 @@ static double solver_bytes(const OstPlan *plan)
 
 static OstCoarsening find_coarsening(const OstPlan *plan)
 {
-    if (plan->facts.misalignment > 1.0)
-        return OST_COARSEN_CROSSED;
+    if (plan->quadratic && ost_solver_is_over_vertices(&plan->facts))
+        return OST_COARSEN_VERTICES;
     if (!plan->quadratic || plan->slenderness < longest)
         return OST_COARSEN_TETS;
     return plan->slenderness < longest_of_columns ? OST_COARSEN_NODES : OST_COARSEN_COLUMNS;
