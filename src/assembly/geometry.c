@@ -99,25 +99,23 @@ static void take_faces(const OstSystem *system, const OstRigidFace *face, const 
     }
 }
 
-OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes)
+OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *places, double *modes)
 {
     const OstLocal rows = system->matrix->rows;
-    double *moved = NULL, middle[3];
-    OST_TRY(ost_agree(system->ctx, OST_NEW(system->ctx, &moved, 3 * (size_t)rows)));
+    double middle[3];
     for (size_t row = 0; row < (size_t)rows; row++)
         for (size_t i = 0; i < 3; i++) {
             const size_t at = 3 * (size_t)system->node_of_row[row] + i;
-            moved[3 * row + i] = system->mesh->coordinates[at] + (displacement ? displacement[at] : 0.0);
+            places[3 * row + i] = system->mesh->coordinates[at] + (displacement ? displacement[at] : 0.0);
         }
-    const OstStatus status = find_middle(system, moved, middle);
+    const OstStatus status = find_middle(system, places, middle);
     if (status == OST_SUCCESS) {
-        ost_rigid_body_modes(rows, moved, middle, modes);
+        ost_rigid_body_modes(rows, places, middle, modes);
         project_modes(system, modes);
     }
     const OstLinks *links = system->supports->links;
     for (int f = 0; links && f < links->face_count && status == OST_SUCCESS; f++)
         take_faces(system, &links->face[f], middle, modes);
-    OST_FREE(moved);
     return status;
 }
 
@@ -126,13 +124,10 @@ OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *f
 {
     const OstLocal rows = system->matrix->rows;
     OstStatus status = OST_SUCCESS;
-    for (OstLocal row = 0; row < rows; row++)
-        memcpy(coordinates + 3 * (size_t)row, system->mesh->coordinates + 3 * (size_t)system->node_of_row[row],
-               3 * sizeof(double));
     if (metric && !field->region_axes)
         euclidean_metric(rows, metric);
     else if (metric)
         status = mean_metric(system, field, metric);
     OST_TRY(ost_agree(system->ctx, status));
-    return ost_system_modes(system, NULL, modes);
+    return ost_system_modes(system, NULL, coordinates, modes);
 }

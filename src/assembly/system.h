@@ -113,8 +113,9 @@ void ost_least_stretch(const OstMesh *mesh, const OstMaterialField *field, const
 OstStatus ost_system_geometry(const OstSystem *system, const OstMaterialField *field, double *coordinates,
                               double *metric, double *modes);
 
-/* Collective. The modes alone, of the shape that `displacement` (3 × node_count; NULL: none) gives the body. */
-OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *modes);
+/* Collective. The rows' places (3 × rows) in the shape that `displacement` (3 × node_count; NULL: none) gives the body,
+ * and the modes there. */
+OstStatus ost_system_modes(const OstSystem *system, const double *displacement, double *places, double *modes);
 
 /* Local. Adds the springs to the filled K, and turns it into P K P + s(I - P) at nodes that are constrained in one or
  * two directions. s is the mean

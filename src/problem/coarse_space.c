@@ -72,7 +72,7 @@ OstStatus ost_linear_space_move(OstLinearSpace *space, const OstMaterialField *f
     }
     ost_system_release_scatter(space->system);
     status = ost_agree(ctx, status);
-    OST_THEN(ost_system_modes(space->system, u, space->rows.modes));
+    OST_THEN(ost_row_geometry_move(&space->rows, u));
     OST_FREE(u);
     return status;
 }

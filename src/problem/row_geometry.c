@@ -34,7 +34,7 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
 
 void ost_row_geometry_release(OstRowGeometry *rows)
 {
-    OST_FREE(rows->coordinates, rows->metric, rows->modes);
+    OST_FREE(rows->coordinates, rows->metric, rows->modes, rows->moved);
 }
 
 static void release(void *data)
@@ -52,7 +52,19 @@ static OstStatus renew(void *data, OstSolverGeometry *geometry)
     geometry->coordinates = rows->coordinates;
     geometry->metric = rows->metric;
     geometry->modes = rows->modes;
+    geometry->moved = rows->moved;
     return OST_SUCCESS;
+}
+
+OstStatus ost_row_geometry_move(OstRowGeometry *rows, const double *displacement)
+{
+    OstContext *ctx = rows->system->ctx;
+    OST_TRY(ost_geometry_renew(&rows->geometry));
+    if (!rows->moved)
+        OST_TRY(ost_agree(ctx, OST_NEW(ctx, &rows->moved, 3 * (size_t)rows->system->matrix->rows)));
+    rows->kept = 1;
+    rows->geometry.moved = rows->moved;
+    return ost_system_modes(rows->system, displacement, rows->moved, rows->modes);
 }
 
 void ost_row_geometry_lend(OstRowGeometry *rows)

@@ -8,11 +8,12 @@
 /* What multigrid needs to know of a system's rows (ost_system_geometry), with the arrays that hold it. */
 typedef struct OstRowGeometry {
     double *coordinates, *metric, *modes; /* metric: NULL if isotropic */
+    double *moved;                        /* NULL before ost_row_geometry_move */
     OstSolverGeometry geometry;
     const OstSystem *system;
     const OstMaterialField *field;
     int with_metric;
-    int kept; /* by somebody who has changed the modes, even if lent */
+    int kept; /* even if lent, as when they have been moved */
 } OstRowGeometry;
 
 /* Collective. */
@@ -20,8 +21,11 @@ OstStatus ost_row_geometry_create(const OstSystem *system, const OstMaterialFiel
                                   OstRowGeometry *rows);
 void ost_row_geometry_release(OstRowGeometry *rows);
 
+/* Collective. Takes the modes to the shape that `displacement` (3 × node_count) gives the body, where they are kept. */
+OstStatus ost_row_geometry_move(OstRowGeometry *rows, const double *displacement);
+
 /* Local. From now on a solver releases the arrays while it does not need them: modes, positions and metric take 72
- * bytes an unknown. Whoever changes the modes sets `kept`. */
+ * bytes an unknown. */
 void ost_row_geometry_lend(OstRowGeometry *rows);
 
 #endif

@@ -39,6 +39,10 @@ OstStatus ost_stiffness_solver_make(OstStiffnessSolver *stiffness)
     ost_solver_plan(&stiffness->options, &stiffness->facts, &plan);
     if (needs_linear_space(problem, &plan))
         OST_TRY(ost_linear_space_create(problem->system, problem->field, problem->with_metric, &stiffness->coarse));
+    if (!stiffness->rows.geometry.owner) { /* lent so that the solver learns where they have moved */
+        stiffness->rows.kept = 1;
+        ost_row_geometry_lend(&stiffness->rows);
+    }
     OstSolverGeometry geometry = stiffness->rows.geometry;
     geometry.coarse = stiffness->coarse ? &stiffness->coarse->space : NULL;
     geometry.facts = &stiffness->facts;
@@ -48,9 +52,7 @@ OstStatus ost_stiffness_solver_make(OstStiffnessSolver *stiffness)
 OstStatus ost_stiffness_solver_rebuild(OstStiffnessSolver *stiffness, double t, const double *displacement)
 {
     const OstProblem *problem = stiffness->problem;
-    OST_TRY(ost_geometry_renew(&stiffness->rows.geometry));
-    stiffness->rows.kept = 1;
-    OST_TRY(ost_system_modes(problem->system, displacement, stiffness->rows.modes));
+    OST_TRY(ost_row_geometry_move(&stiffness->rows, displacement));
     if (stiffness->coarse)
         OST_TRY(ost_linear_space_move(stiffness->coarse, problem->field, OST_FORMULATION_CONSISTENT,
                                       ost_problem_eigen_share(problem, t), displacement));

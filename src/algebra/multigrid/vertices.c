@@ -49,10 +49,15 @@ static int list_parents(const OstCoarseSpace *space, size_t row, OstLocal column
     return count;
 }
 
+static const double *places(const OstSolverGeometry *geometry)
+{
+    return geometry->moved ? geometry->moved : geometry->coordinates;
+}
+
 static void find_arm(const Making *m, size_t row, OstLocal vertex, double arm[3])
 {
     for (size_t c = 0; c < 3; c++)
-        arm[c] = m->geometry->coordinates[3 * row + c] - m->place[3 * (size_t)vertex + c];
+        arm[c] = places(m->geometry)[3 * row + c] - m->place[3 * (size_t)vertex + c];
 }
 
 static OstStatus place_vertices(Making *m)
@@ -61,7 +66,7 @@ static OstStatus place_vertices(Making *m)
     OstStatus status = OST_NEW(linear->ctx, &m->place, 3 * (size_t)linear->columns);
     OST_THEN(OST_NEW(linear->ctx, &m->arm, 2 * (size_t)linear->columns));
     OST_TRY(ost_agree(linear->ctx, status));
-    memcpy(m->place, m->space->geometry->coordinates, 3 * (size_t)linear->rows * sizeof *m->place);
+    memcpy(m->place, places(m->space->geometry), 3 * (size_t)linear->rows * sizeof *m->place);
     return ost_halo_import(linear->halo, 3 * sizeof *m->place, m->place);
 }
 
@@ -95,9 +100,11 @@ static void to_scaled(const double s[6], double x[3])
     x[0] = (x[0] - s[1] * x[1] - s[3] * x[2]) / s[0];
 }
 
-/* The motion of a row, in its scaled unknowns, for each unknown of one of its parents. */
+/* The motion of a row, in its scaled unknowns, for each unknown of one of its parents. A vertex has the constraints of
+ * its own row; another row follows where it is free. */
 static void fill_block(const Making *m, size_t row, OstLocal vertex, double weight, float block[BLOCK])
 {
+    const int is_vertex = weight == 1.0;
     const size_t stride = 3 * (size_t)m->scaling->rows;
     const double *s = m->linear->factor + 6 * (size_t)vertex;
     const double basis[3][3] = {{s[0], 0.0, 0.0}, {s[1], s[2], 0.0}, {s[3], s[4], s[5]}}; /* columns of S^T */
@@ -110,9 +117,10 @@ static void fill_block(const Making *m, size_t row, OstLocal vertex, double weig
         else
             ost_cross3(basis[c - 3], arm, whole);
         const double factor = c < 3 ? weight : 0.5 * weight / m->arm[vertex];
-        for (size_t k = 0; k < 3; k++) /* the translations, projected, are a basis of the row's free directions */
+        for (size_t k = 0; k < 3; k++) /* the modes' translations are the projector on the row's free directions */
             for (size_t i = 0; i < 3; i++)
-                motion[i] += factor * whole[k] * m->geometry->modes[k * stride + 3 * row + i];
+                motion[i] +=
+                    factor * whole[k] * (is_vertex ? (double)(i == k) : m->geometry->modes[k * stride + 3 * row + i]);
         to_scaled(m->scaling->factor + 6 * row, motion);
         for (int i = 0; i < 3; i++)
             block[OST_MODES * i + c] = (float)motion[i];
