@@ -277,6 +277,7 @@ typedef struct OstCaseText {
     size_t size;
     int settings;
     const char *const *setting; /* "KEY=VALUE" */
+    int swept;                  /* of the settings the last ones, none of which may change what another one sets */
 } OstCaseText;
 
 /* Collective. The bytes of a case file, or for "-" of standard input, read by rank 0; the caller's to free. */
