@@ -17,6 +17,13 @@ static void a_missing_file_is_named(void **state)
     assert_null(c);
 }
 
+static void control_characters_are_no_part_of_names(void **state)
+{
+    assert_refused(CUBE "materials: [{region: \"a\\x01\", youngs_modulus: 2, poissons_ratio: 0.3}]\n",
+                   "2:22: found the control character \\x01 in a text; leave it out");
+    assert_refused(CUBE STEEL "watch: {\"a\\e\": strain_energy}\n", "3:9: found the control character \\x1b ...");
+}
+
 static void an_unknown_key_comes_with_the_nearest(void **state)
 {
     assert_refused(
@@ -325,6 +332,7 @@ static void bad_settings_are_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_missing_file_is_named),
+    cmocka_unit_test(control_characters_are_no_part_of_names),
     cmocka_unit_test(an_unknown_key_comes_with_the_nearest),
     cmocka_unit_test(springs_say_what_is_wrong),
     cmocka_unit_test(eigenstrains_say_what_is_wrong),

@@ -195,6 +195,10 @@ OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char
     *text = NULL;
     if (!ost_yaml_is(yaml, node, OST_YAML_SCALAR) || scalar_text(yaml, node)[0] == 0)
         return ost_yaml_raise_type(yaml, node, "a text", "");
+    for (const char *letter = scalar_text(yaml, node); *letter; letter++)
+        if ((unsigned char)*letter < ' ' && *letter != '\n' && *letter != '\t')
+            return ost_yaml_raise(yaml, node, "found the control character \\x%02x in a text; leave it out",
+                                  (unsigned)*letter);
     *text = scalar_text(yaml, node);
     return OST_SUCCESS;
 }
