@@ -38,6 +38,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
+    assert_refused(MATERIAL("<<: 2"), "3:19: '<<' merges mappings in YAML 1.1 alone; write their keys out");
     assert_refused(LOAD("on: {all: true}, force: [1, 0, 0]"),
                    "4:23: unknown key 'force' in loads[0]; did you mean 'total_force'? ...");
     assert_refused(MATERIAL("E: 2, nu: 0.3"),
@@ -279,6 +280,7 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "large_rotation: yes\n", "3:17: unknown answer 'yes'. Known: auto, on, off");
     assert_refused(CUBE STEEL "formulation: corotational\n",
                    "3:14: unknown formulation 'corotational'. Known: consistent, classical");
+    assert_refused(CUBE STEEL "large_rotation: false\nformulation: classical\n", "4:14: formulation says how ...");
     assert_refused(CUBE STEEL "large_rotation: off\nformulation: classical\n",
                    "4:14: formulation says how large rotations are computed, and large_rotation is off; leave out one "
                    "of them");
