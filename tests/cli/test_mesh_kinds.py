@@ -35,7 +35,9 @@ check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries
 FOUR = "*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
 ONE = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n"
 for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NGEN\n1, 4, 1\n" + ONE, "*NGEN"),
-                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "a second part"), ("", "is empty")):
+                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "ends within a part"),
+                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR + "*END PART\n", "no instance of them"),
+                    ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*INSTANCE, NAME=I, PART=B\n*END INSTANCE\n", "the part 'B', which is not before"), ("", "is empty")):
     done = run("mesh", write(folder, "told.inp", text), folder=folder)
     check(done.exit_code == 2 and words in done.errors, f"{words}: {done.errors}")
 held = inspect(write(folder, "mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
@@ -43,6 +45,62 @@ check(held["tets"] == 1 and held["boundaries"][0]["name"] == "N" and held["bound
 write(folder, "nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n")
 held = inspect(write(folder, "included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
 check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")
+
+# Parts and their instances, moved and turned: sets have the instance's name before theirs, numbers of the second begin at 1000000000;
+# the assembly's own node (a reference point) has a number that the first instance has too. An independent instance has its own mesh.
+PARTS = f"""*PART, NAME=Arm
+{FOUR}{ONE}*NSET, NSET=TIP
+4
+*ELSET, ELSET=BONE
+1
+*SURFACE, NAME=FOOT
+BONE, S1
+*SOLID SECTION, ELSET=BONE, MATERIAL=M
+*END PART
+*PART, NAME=Empty
+*END PART
+*ASSEMBLY, NAME=Assembly
+*INSTANCE, NAME=Arm-1, PART=Arm
+*END INSTANCE
+*INSTANCE, NAME=Arm-2, PART=Arm
+ 10., 0., 0.
+ 10., 0., 0., 10., 0., 1., 90.
+*END INSTANCE
+*INSTANCE, NAME=Own-1, PART=Empty
+0., 0., 7.
+{FOUR}{ONE}*END INSTANCE
+*NODE
+1, 5., 5., 5.
+*NSET, NSET=RP
+1
+*NSET, NSET=second, INSTANCE=Arm-2
+1, 2
+*NSET, NSET=all-tips
+Arm-1.TIP, Arm-2.TIP
+*ELSET, ELSET=_s, INTERNAL, INSTANCE=Arm-2
+1
+*SURFACE, NAME=side
+_s, S1
+*END ASSEMBLY
+"""
+held = inspect(write(folder, "parts.inp", PARTS), "parts.vtu")
+check([(r["name"], r["tets"]) for r in held["regions"]][:2] == [("Arm-1.BONE", 1), ("Arm-2.BONE", 1)] and held["tets"] == 3 and
+      abs(held["volume"] - 0.5) < 1e-12, f"{held}")
+groups = {b["name"]: (b["of"], b["count"]) for b in held["boundaries"]}
+check(groups == {"Arm-1.TIP": ("points", 1), "Arm-2.TIP": ("points", 1), "Arm-1.FOOT": ("faces", 1), "Arm-2.FOOT": ("faces", 1),
+                 "RP": ("points", 0), "second": ("points", 2), "all-tips": ("points", 2), "side": ("faces", 1)}, f"{groups}")
+check(held["low"] == [0, 0, 0] and np.allclose(held["high"], [10, 1, 8]), f"{held}")  # the second one, turned, lies at x from 9 to 10
+write(folder, "parts.yaml", """mesh: {file: parts.inp}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0}]
+constraints: [{on: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}, displacement: [0, 0, 0]},
+              {on: {plane: {point: [0, 0, 7], normal: [0, 0, 1]}}, displacement: [0, 0, 0]}]
+loads: [{on: {vertices: [1000000004]}, point_force: [0, 0, 0.001]}]
+watch: {tip: {displacement: {nearest: [10, 0, 1]}, component: z}, first: {displacement: {nearest: [0, 0, 1]}, component: z}}
+""")
+done = run("solve", "parts.yaml", "-q", "--json", "-", "--output", "out.vtkhdf", folder=folder)
+check(done.exit_code == 0, done.errors)
+watched = json.loads(done.output)["watched"]
+check(abs(watched["tip"]["value"] - 0.006) < 1e-6 and watched["first"]["value"] == 0, f"{watched}")  # F = E V u / h^2
 
 # MEDIT's quadratic solids, whose nodes may be in any order behind the vertices. The bodies are sheared by x + y z / 5, which keeps volumes.
 CORNERS = {"HexahedraQ2": ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)),
