@@ -15,6 +15,7 @@
 
 static const OstGlobal stride = 1000000000, own = 900000000000000; /* the assembly's own nodes begin after that */
 
+static const OstInpInstance as_it_is;
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* What is no label is refused later. */
@@ -100,12 +101,10 @@ static OstStatus add_all(const OstCells *from, const OstInpInstance *instance, O
             whole_name(prefix, from->set[s].name, name);
         OST_TRY(add_set(&from->set[s], name, offset, to));
     }
-    if (from->solids > 0)
-        memcpy(to->solid, from->solid, sizeof to->solid);
-    if (from->others > 0)
-        memcpy(to->other, from->other, sizeof to->other);
-    to->solids += from->solids;
-    to->others += from->others;
+    for (OstGlobal i = 0; i < from->solids; i++)
+        ost_cells_skip(to, 3, from->solid);
+    for (OstGlobal i = 0; i < from->others; i++)
+        ost_cells_skip(to, 2, from->other);
     return OST_SUCCESS;
 }
 
@@ -162,7 +161,6 @@ static const OstInpPart *find_part(const OstInp *inp, const char *name)
 /* An instance begins with all that its part has, and may add to it, as independent ones do. */
 OstStatus ost_inp_begin_instance(OstInp *inp, const OstInpKeyword *keyword)
 {
-    static const OstInpInstance as_it_is = {0};
     char name[OST_INP_WORD] = "", part_name[OST_INP_WORD];
     ost_inp_set_name(keyword, "NAME", name);
     const OstInpPart *part = ost_inp_set_name(keyword, "PART", part_name) ? find_part(inp, part_name) : inp->part;
@@ -205,27 +203,10 @@ static OstStatus name_first(OstInp *inp)
     return OST_SUCCESS;
 }
 
-static OstStatus check_numbers(const OstInp *inp, const OstCells *cells)
-{
-    OstGlobal most = 0;
-    for (OstLocal n = 0; n < cells->chunk->node_count; n++)
-        most = cells->chunk->node_label[n] > most ? cells->chunk->node_label[n] : most;
-    for (int k = 0; k < OST_CELL_KINDS; k++)
-        for (OstLocal c = 0; c < cells->list[k].count; c++)
-            most = cells->list[k].label[c] > most ? cells->list[k].label[c] : most;
-    return most < stride ? OST_SUCCESS
-                         : OST_RAISE_LINE(inp->lines,
-                                          "the number %" PRId64 " in one of several instances; at most %" PRId64
-                                          " can be told apart",
-                                          most, stride - 1);
-}
-
 static OstStatus take_instance(OstInp *inp, const OstCells *cells)
 {
     const int number = inp->instance_count - 1;
     const OstInpInstance *instance = &inp->instance[number];
-    if (number > 0)
-        OST_TRY(check_numbers(inp, cells));
     if (number == 1)
         OST_TRY(name_first(inp));
     OST_TRY(add_all(cells, instance, number * stride, number > 0 ? instance->name : NULL, &inp->cells));
@@ -246,7 +227,6 @@ OstStatus ost_inp_end_instance(OstInp *inp)
 
 OstStatus ost_inp_end_parts(OstInp *inp)
 {
-    static const OstInpInstance as_it_is = {0};
     if (inp->inside)
         return OST_RAISE(inp->ctx, OST_INVALID_INPUT, "%s: the file ends within a part or an instance",
                          inp->cells.path);
