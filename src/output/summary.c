@@ -92,7 +92,10 @@ static void print_accuracy(const OstAnswerError *answer, const OstChecks *checks
     char text[24];
     if (!answer->known)
         return;
-    printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
+    if (answer->relative > 0.0)
+        printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
+    else
+        printf("  accuracy         answer exact but for rounding in energy norm");
     if (isfinite(answer->displacement))
         printf(", %s%s in the largest displacement", answer->displacement_is_least ? "at least " : "",
                percent(answer->displacement, text));

@@ -55,6 +55,7 @@ def main():
     compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])
     compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8", "--accuracies", "-"], folder, KINDS[:2], ["--json", "-"])
     zero_loads(folder)
+    overridden_materials(folder)
 
 
 # A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.
@@ -81,6 +82,16 @@ def zero_loads(folder):
               f"{text} {more}: {ended.errors}")
     swept = run("sweep", "zero.yaml", "--case", "wind", "--over", "loads.1.pressure=0,1", folder=folder)
     check(swept.exit_code == 0 and "is zero" not in swept.errors, swept.errors)
+
+
+# A later material stands in the place of an earlier one: the other order is likely meant.
+def overridden_materials(folder):
+    one = "{region: %s, youngs_modulus: 1, poissons_ratio: 0.3}"
+    for regions, warned in ((("block", "all"), True), (("all", "block"), False), (("block", "block"), True)):
+        write(folder, "two.yaml", ZERO.replace("VALUE", "5").replace(one % "all", ", ".join(one % region for region in regions)))
+        ended = run("check", "two.yaml", folder=folder)
+        check(ended.exit_code == 0 and ("two.yaml:2: the material of region 'block' is nowhere" in ended.errors) == warned,
+              f"{regions}: {ended.errors}")
 
 
 main()
