@@ -61,7 +61,8 @@ typedef struct OstNewtonReport {
 typedef struct OstAnswerError {
     double energy_norm;        /* |e|_E, in the norm of the energy: sqrt(2 × the strain energy of e) */
     double relative;           /* that over |u + e|_E */
-    double displacement;       /* largest |e| at a node, over the largest |u + e| */
+    double displacement;       /* largest |e| at a node, over the largest |u + e|; NAN where a distributing coupling is
+                                  moved: its force has an error that is not in e */
     int displacement_is_least; /* 1: the true one may be up to five times that, as multigrid finds e slowly and nothing
                                   is watched */
     int known;                 /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */

@@ -246,6 +246,9 @@ OstStatus ost_search_displacement(Search *search)
     return ost_system_displacement(search->estimate->problem->system, 0.0, search->steps.e.rows, search->steps.u);
 }
 
+/* An e below this share of u is rounding. */
+static const double rounding = 1e-12;
+
 /* `square` is in the case's units. */
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
 {
@@ -269,8 +272,9 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
         OST_TRY(ost_sum(problem->ctx, 1, &energy));
     }
     found->energy_norm = sqrt(square);
-    found->relative = square > 0.0 ? sqrt(square / (square + 2.0 * energy)) : 0.0;
     found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
+    /* Where an eigenstrain is free the elastic energy is rounding, and e beside u tells so. */
+    found->relative = square > 0.0 && found->displacement > rounding ? sqrt(square / (square + 2.0 * energy)) : 0.0;
     found->known = 1;
     return OST_SUCCESS;
 }

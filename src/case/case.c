@@ -367,6 +367,8 @@ static OstStatus parse(OstContext *ctx, const char *path, const OstCaseText *tex
     OST_TRY(begin(ctx, path, c));
     OST_TRY(ost_yaml_parse(ctx, (*c)->path, text->bytes, text->size, &yaml));
     OstStatus status = OST_SUCCESS;
+    if (text->swept > 0)
+        yaml->lasting = text->settings - text->swept + 1;
     (*c)->text_hash = ost_hash(OST_HASH_START, text->size, text->bytes);
     for (int s = 0; s < text->settings && status == OST_SUCCESS; s++) {
         status = ost_yaml_set(yaml, text->setting[s]);

@@ -112,6 +112,7 @@ typedef struct OstLoad {
     double pressure;
     int follows;    /* PRESSURE: does it follow the surface? */
     int exact;      /* TRACTION, BODY_FORCE: by the formula (the word exact)? */
+    int chosen;     /* is it of one load case, or set from outside the file (case/yaml/set.h)? It may well be zero */
     int table;      /* 0 if it grows with t, or 1 + its place in the case's tables */
     OstShare share; /* TOTAL_FORCE: by area over faces, or equally over vertices; AUTO: faces if the selection has any
                        (never for VERTICES and NEAREST, which are read as share: vertices) */
@@ -277,6 +278,7 @@ typedef struct OstCaseText {
     size_t size;
     int settings;
     const char *const *setting; /* "KEY=VALUE" */
+    int swept;                  /* of the settings the last ones, none of which may change what another one sets */
 } OstCaseText;
 
 /* Collective. The bytes of a case file, or for "-" of standard input, read by rank 0; the caller's to free. */

@@ -65,9 +65,11 @@ static void drop_replaced(OstCase *c, int before)
 /* What acts on the body in one load case, beside what acts in all. */
 static OstStatus add_conditions(const OstYaml *yaml, const OstYamlKey keys[ENTRY_KEYS], OstCase *c)
 {
-    const int before = c->constraint_count;
+    const int before = c->constraint_count, common_loads = c->load_count;
     if (keys[LOADS].value)
         OST_TRY(ost_read_loads(yaml, keys[LOADS].value, c));
+    for (int i = common_loads; i < c->load_count; i++)
+        c->loads[i].chosen = 1;
     if (keys[CONSTRAINTS].value)
         OST_TRY(ost_read_constraints(yaml, keys[CONSTRAINTS].value, c));
     if (keys[SPRINGS].value)

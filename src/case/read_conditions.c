@@ -302,6 +302,15 @@ static OstStatus read_value(const OstYaml *yaml, const OstYamlNode *node, OstLoa
     return load->exact ? OST_SUCCESS : ost_yaml_numbers(yaml, node, 3, load->vector);
 }
 
+/* Did a setting make the value, or a part of it? */
+static int is_set(const OstYaml *yaml, const OstYamlNode *value)
+{
+    int set = 0;
+    for (const OstYamlNode *node = value; node < ost_yaml_next(yaml, value); node++)
+        set |= ost_yaml_setting(yaml, node) != NULL;
+    return set;
+}
+
 static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstLoad *load)
 {
     OstYamlKey keys[LOAD_KEYS] = {
@@ -327,6 +336,7 @@ static OstStatus read_load(const OstYaml *yaml, const OstYamlNode *node, OstCase
     OST_TRY(check_keys(yaml, node, keys, kind));
     load->kind = (OstLoadKind)kind;
     load->line = ost_yaml_line(node);
+    load->chosen = is_set(yaml, keys[kind].value);
     if (keys[ON].value)
         OST_TRY(ost_read_selection(yaml, keys[ON].value, &load->on));
     if (keys[ON].value && (load->on.kind == OST_SELECT_VERTICES || load->on.kind == OST_SELECT_NEAREST))

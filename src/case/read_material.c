@@ -424,6 +424,23 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     return read_directions(yaml, keys[AXES].value, keys[FIBRE].value, &stated, c, material);
 }
 
+/* An entry of which later ones leave nothing: its author likely took the first to count. */
+static void warn_overridden(const OstCase *c)
+{
+    for (int i = 0; i < c->material_count; i++)
+        for (int later = i + 1; later < c->material_count; later++) {
+            const char *region = c->materials[i].region, *other = c->materials[later].region;
+            if (!ost_is_every_region(other) && strcmp(region, other) != 0)
+                continue;
+            ost_warn(
+                c->ctx,
+                "%s:%d: the material of region '%.80s' is nowhere, as the later one in line %d stands for '%.80s'; "
+                "put that before it",
+                c->path, c->materials[i].line, region, c->materials[later].line, other);
+            break;
+        }
+}
+
 OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     int count;
@@ -436,5 +453,6 @@ OstStatus ost_read_materials(const OstYaml *yaml, const OstYamlNode *node, OstCa
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item))
         OST_TRY(read_material(yaml, item, c, &c->materials[i]));
+    warn_overridden(c);
     return OST_SUCCESS;
 }

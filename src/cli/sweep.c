@@ -49,7 +49,8 @@ static const struct argp sweep_argp = {
 static OstStatus raise_over(OstContext *ctx, const char *over)
 {
     return OST_RAISE(ctx, OST_INVALID_USAGE,
-                     "--over takes KEY=a,b,c or KEY=from:to:count, as in materials.wood.E1=9e9:13e9:5; found '%.200s'",
+                     "--over takes KEY=a,b,c or KEY=from:to:count, as in materials.wood.E1=9e9:13e9:5 or "
+                     "loads.0.value=[1,0,0],[0,1,0]; found '%.200s'",
                      over);
 }
 
@@ -70,6 +71,26 @@ static OstStatus add_value(OstContext *ctx, const char *text, size_t length, Ost
     return OST_SUCCESS;
 }
 
+/* Up to the next comma outside of brackets and quotes, or the end; 0 for none, a colon outside, or open brackets. */
+static size_t value_length(const char *text)
+{
+    int depth = 0;
+    char quote = 0;
+    size_t length = 0;
+    for (; text[length] && (text[length] != ',' || depth > 0 || quote); length++) {
+        const char letter = text[length];
+        if (quote)
+            quote = letter == quote ? 0 : quote;
+        else if ((letter == '"' || letter == '\'') && (length == 0 || strchr("[{,: ", text[length - 1])))
+            quote = letter;
+        else if (letter == ':' && depth == 0)
+            return 0;
+        else
+            depth += (letter == '[' || letter == '{') - (letter == ']' || letter == '}');
+    }
+    return depth == 0 && !quote ? length : 0;
+}
+
 static OstStatus read_over(OstContext *ctx, const char *over, OstSweepKey *key)
 {
     const char *values = strchr(over, '=');
@@ -88,10 +109,8 @@ static OstStatus read_over(OstContext *ctx, const char *over, OstSweepKey *key)
         }
         return OST_SUCCESS;
     }
-    if (strchr(values, ':'))
-        return raise_over(ctx, over);
     for (int ended = 0; !ended;) {
-        const size_t length = strcspn(values, ",");
+        const size_t length = value_length(values);
         if (length == 0)
             return raise_over(ctx, over);
         OST_TRY(add_value(ctx, values, length, key));

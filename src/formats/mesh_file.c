@@ -136,6 +136,23 @@ static OstStatus is_parallel(OstContext *ctx, const OstMeshFormat *format, const
     return OST_SUCCESS;
 }
 
+/* Names go into JSON and XML, and case files, which are UTF-8, name them. */
+static OstStatus make_names_plain(const char *path, OstMeshChunk *chunk)
+{
+    OstContext *ctx = chunk->ctx;
+    for (int r = 0; r < chunk->regions.count; r++) {
+        OST_TRY(ost_name_plain(ctx, &chunk->regions.name[r]));
+        if (ost_names_find(&chunk->regions, chunk->regions.name[r]) != r)
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "%s: two regions are called '%.80s', but for control characters or the encoding of their "
+                             "letters; rename one",
+                             path, chunk->regions.name[r]);
+    }
+    for (int b = 0; b < chunk->boundary_count; b++)
+        OST_TRY(ost_name_plain(ctx, &chunk->boundaries[b].name));
+    return OST_SUCCESS;
+}
+
 static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
@@ -151,6 +168,7 @@ static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chu
         OST_THEN(ost_vtkhdf_read(ctx, path, chunk));
     } else
         status = read_serial(ctx, format, path, chunk, materials);
+    OST_THEN(ost_agree(ctx, make_names_plain(path, *chunk)));
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(chunk);
         ost_file_materials_destroy(materials);

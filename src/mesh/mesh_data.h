@@ -167,6 +167,11 @@ void ost_boundaries_destroy(int count, OstBoundary **boundaries);
 OstStatus ost_names_add(OstContext *ctx, OstNames *names, const char *text);
 OstStatus ost_names_add_unique(OstContext *ctx, OstNames *names, const char *text);
 
+/* Local. Is a name UTF-8 without control characters? The other makes it so: bytes that are no UTF-8 are taken as
+ * Latin-1, control characters become blanks. */
+int ost_name_is_plain(const char *name);
+OstStatus ost_name_plain(OstContext *ctx, char **name);
+
 /* Local. The mesh's local number of a node by its global number, or -1 if it is not on this rank. */
 OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
 

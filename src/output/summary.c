@@ -92,9 +92,14 @@ static void print_accuracy(const OstAnswerError *answer, const OstChecks *checks
     char text[24];
     if (!answer->known)
         return;
-    printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
-    printf(", %s%s in the largest displacement; equations solved to %.0e\n",
-           answer->displacement_is_least ? "at least " : "", percent(answer->displacement, text),
+    if (answer->relative > 0.0)
+        printf("  accuracy         answer about %s off in energy norm", percent(answer->relative, text));
+    else
+        printf("  accuracy         answer exact but for rounding in energy norm");
+    if (isfinite(answer->displacement))
+        printf(", %s%s in the largest displacement", answer->displacement_is_least ? "at least " : "",
+               percent(answer->displacement, text));
+    printf("; equations solved to %.0e\n",
            isfinite(checks->displacement_error) ? checks->displacement_error : checks->relative_residual);
 }
 

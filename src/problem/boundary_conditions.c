@@ -338,6 +338,23 @@ static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect 
     return at_line(scene->c, load->line, status);
 }
 
+static int is_zero(const OstLoad *load)
+{
+    return !load->exact && load->pressure == 0.0 && load->speed == 0.0 && ost_norm3(load->vector) == 0.0;
+}
+
+/* A load that does nothing, where nothing says that it is meant to: no load case, no sweep over loads, no --set. */
+static void check_zero(const OstScene *scene, const OstLoad *load)
+{
+    const OstCase *c = scene->c;
+    int meant = load->chosen || !is_zero(load);
+    for (int k = 0; k < c->sweep_count; k++)
+        meant |= strncmp(c->sweep[k].key, "loads", 5) == 0;
+    if (!meant)
+        ost_warn(c->ctx, "%s:%d: this load is zero, and does nothing; give it a size, or leave it out", c->path,
+                 load->line);
+}
+
 /* Warns if the supports take up the whole of one load. */
 static OstStatus check_strains(const OstScene *scene, const OstSupports *supports, const OstLoad *load,
                                const double *force)
@@ -367,6 +384,7 @@ static OstStatus add_checked_load(const OstScene *scene, int i, const OstSupport
     const OstLoad *load = &scene->c->loads[i];
     const size_t n = 3 * (size_t)scene->mesh->node_count;
     double *own = NULL;
+    check_zero(scene, load);
     OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, &own, n));
     OST_THEN(add_load(scene, load, scene->load_effect[i], own, follower));
     OST_THEN(check_strains(scene, supports, load, own));

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "solve/distributing/distributing.h"
 #include "solve/linear.h"
 
 #include <math.h>
@@ -198,6 +199,10 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
         OST_TRY_DONE(estimate_reactions(analysis, estimate, t, result));
     if (!result->surplus && !analysis->problem->pressures && result->solve.condition_estimate > slow)
         result->answer.displacement_is_least = 1;
+    if (ost_distributing_any(analysis->problem)) { /* e is that of fixed forces, and theirs has an error too */
+        result->answer.displacement = NAN;
+        result->answer.displacement_is_least = 0;
+    }
     if (!result->answer.known) {
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);

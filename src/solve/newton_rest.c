@@ -203,7 +203,7 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         const int is_rounding = newton->norm <= drowned_residual * newton->size;
-        const int is_settled = newton->change <= settled || is_rounding;
+        const int is_settled = newton->change <= settled || (is_rounding && k > 0); /* else `change` says nothing */
         newton->stopped = newton->norm > target && is_enough(newton);
         *rest = (newton->norm <= target || newton->stopped) && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
         if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)

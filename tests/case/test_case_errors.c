@@ -17,6 +17,13 @@ static void a_missing_file_is_named(void **state)
     assert_null(c);
 }
 
+static void control_characters_are_no_part_of_names(void **state)
+{
+    assert_refused(CUBE "materials: [{region: \"a\\x01\", youngs_modulus: 2, poissons_ratio: 0.3}]\n",
+                   "2:22: found the control character \\x01 in a text; leave it out");
+    assert_refused(CUBE STEEL "watch: {\"a\\e\": strain_energy}\n", "3:9: found the control character \\x1b ...");
+}
+
 static void an_unknown_key_comes_with_the_nearest(void **state)
 {
     assert_refused(
@@ -31,6 +38,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
+    assert_refused(MATERIAL("<<: 2"), "3:19: '<<' merges mappings in YAML 1.1 alone; write their keys out");
     assert_refused(LOAD("on: {all: true}, force: [1, 0, 0]"),
                    "4:23: unknown key 'force' in loads[0]; did you mean 'total_force'? ...");
     assert_refused(MATERIAL("E: 2, nu: 0.3"),
@@ -272,6 +280,7 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "large_rotation: yes\n", "3:17: unknown answer 'yes'. Known: auto, on, off");
     assert_refused(CUBE STEEL "formulation: corotational\n",
                    "3:14: unknown formulation 'corotational'. Known: consistent, classical");
+    assert_refused(CUBE STEEL "large_rotation: false\nformulation: classical\n", "4:14: formulation says how ...");
     assert_refused(CUBE STEEL "large_rotation: off\nformulation: classical\n",
                    "4:14: formulation says how large rotations are computed, and large_rotation is off; leave out one "
                    "of them");
@@ -325,6 +334,7 @@ static void bad_settings_are_refused(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_missing_file_is_named),
+    cmocka_unit_test(control_characters_are_no_part_of_names),
     cmocka_unit_test(an_unknown_key_comes_with_the_nearest),
     cmocka_unit_test(springs_say_what_is_wrong),
     cmocka_unit_test(eigenstrains_say_what_is_wrong),

@@ -55,6 +55,23 @@ def main():
     newton = report["large_rotation"]
     check(not newton["newton"] and newton["linear_error"] < newton["accuracy"] == 0.02, f"auto: {newton}")
     check("no more than the 2 % allowed, solved linearly" in finished.output, finished.output)
+    free_expansion(folder)
+
+
+# What expands freely is exact, though its energy is rounding.
+def free_expansion(folder):
+    expands = CASE.replace("order: 2", "order: 1").replace("poissons_ratio: 0.3", "poissons_ratio: 0.3, eigenstrain: 0.1").replace(
+        "  - {on: {boundary: xmin}, displacement: [0, 0, 0]}", "  - {on: {boundary: xmin}, displacement: [0, free, free]}\n"
+        "  - {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}\n  - {on: {nearest: [0, 1, 0]}, displacement: [free, free, 0]}").replace(
+        "loads:\n  - {on: {boundary: xmax}, total_force: FORCE}\n", "").replace("output: {fields: [displacement]}\n", "")
+    for word in ("off", "on"):
+        write(folder, "free.yaml", expands.replace("WORD", word))
+        finished = run("solve", "free.yaml", "--json", "free.json", folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        with open(os.path.join(folder, "free.json")) as stream:
+            report = json.load(stream)
+        check(report["answer_error"]["relative"] == 0 and report["checks"]["displacement_error"] < 1e-9, f"{word}: {report}")
+        check("exact but for rounding" in finished.output and "mesh is coarse" not in finished.output, finished.output)
 
 
 main()

@@ -200,6 +200,25 @@ for order, points, kinds in (("linear", 23, {"tetra": 48, "triangle": 4}), ("qua
     kept = inspect(f"{order}.vtu")
     check([r["name"] for r in kept["regions"]] == ["volume-1", "volume-2"] and kept["boundaries"][0]["name"] == "surface-1",
           f"{kept['regions']} {kept['boundaries']}")
+
+# the material axes of a result go along
+AXES = "axes: {curve: {points: [[0, 0, 0], [1, 0, 0.1], [2, 0, 0.4]], up: [0, 0, 1]}}}]"
+CURVED = f"""mesh: {{block: {{size: [2, 1, 1], divisions: [2, 1, 1]}}}}
+materials: [{{region: all, youngs_modulus: [1, 2, 3], poissons_ratio: 0.3, {AXES}
+constraints: [{{on: {{boundary: xmin}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{plane: {{point: [2, 0, 0], normal: [1, 0, 0]}}}}, total_force: [0.001, 0, 0]}}]
+watch: {{energy: strain_energy}}
+"""
+write(folder, "curved.yaml", CURVED)
+energy = json.loads(run("solve", "curved.yaml", "-q", "--json", "-", "--output", "curved.vtkhdf", folder=folder).output)["watched"]["energy"]["value"]
+for ending in ("msh", "vtu", "inp"):
+    made = run("mesh", "curved.vtkhdf", "curved." + ending, folder=folder)
+    check(made.exit_code == 0 and ("material axes" in made.errors) == (ending == "inp"), made.errors)
+    if ending != "inp":
+        write(folder, "again.yaml", CURVED.replace(AXES, "axes: {field: axes}}]").replace(
+            "{block: {size: [2, 1, 1], divisions: [2, 1, 1]}}", "{file: curved." + ending + "}"))
+        again = run("solve", "again.yaml", "-q", "--json", "-", "--output", "again.vtkhdf", ranks=fewer([2])[0], folder=folder)
+        check(abs(json.loads(again.output)["watched"]["energy"]["value"] - energy) < 1e-6 * energy, f"{ending}: {again.errors}")
 bad = run("mesh", stored("cae-linear.inp"), "new.stl", folder=folder)
 check(bad.exit_code == 2 and ".msh" in bad.errors and ".vtu" in bad.errors, bad.errors)
 

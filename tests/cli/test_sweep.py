@@ -52,6 +52,14 @@ check(int(rows[1]["unknowns"]) > 5 * int(rows[0]["unknowns"]), rows)
 alone = end_of("element.order=2", "loads.0.value.x=4")
 check(abs(float(rows[1]["end"]) - alone) < 1e-5 * abs(alone), (rows, alone))
 
+# a value may be a list or a mapping: commas within are its own
+vectors = run("sweep", "bar.yaml", "--over", "loads.0.value=[1,0,0],[0,1,0]", "--json", "bar.json", folder=folder)
+runs = read_json(folder, "bar.json")["runs"]
+check([one["values"]["loads.0.value"] for one in runs] == ["[1,0,0]", "[0,1,0]"], vectors.errors)
+for one, vector in zip(runs, ("[1,0,0]", "[0,1,0]")):
+    alone = end_of("loads.0.value=" + vector)
+    check(abs(one["watched"]["end"] - alone) < 1e-5 * abs(alone), (one, alone))
+
 drawn = run("sweep", "bar.yaml", "-q", "--picture", "bar.png", folder=folder)
 check(drawn.exit_code == 0, drawn.errors)
 with open(os.path.join(folder, "bar.png"), "rb") as stream:
@@ -75,6 +83,11 @@ for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
                          (("--over", "loads.0.value.x=1,,2"), "--over takes KEY=a,b,c"),
                          (("--over", "loads.0.value.x=1:2"), "KEY=from:to:count"),
                          (("--over", "loads.0.value.x=1:2:9999", "--over", "loads.0.value.y=1:2:9999"), "at most 10000"),
+                         (("--over", "loads.0.value=[1,0,0],[0,1,0"), "loads.0.value=[1,0,0],[0,1,0]; found"),
+                         (("--over", "loads.0.value.x=1,2", "--over", "loads.0.total_force.0=3,4"),
+                          "by two keys, loads.0.value.x=1 and loads.0.total_force.0=3"),
+                         (("--over", "loads.0.value.x=1,2", "--over", "loads.0.value=[1,0,0],[0,1,0]"), "by two keys"),
+                         (("--over", "element.order=1,2", "--over", "element={order: 1}"), "by two keys"),
                          (("--picture", "-"), "a picture cannot go to standard output"),
                          (("--picture", "bar.bmp"), "ends with .png, .svg or .pdf; found 'bar.bmp'"),
                          (("--picture", "bar"), "ends with .png, .svg or .pdf; found 'bar'"),

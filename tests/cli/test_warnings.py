@@ -54,6 +54,44 @@ def main():
     compare(["check", "case.yaml"], folder, KINDS, ["--json"])
     compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])
     compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8", "--accuracies", "-"], folder, KINDS[:2], ["--json", "-"])
+    zero_loads(folder)
+    overridden_materials(folder)
+
+
+# A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.
+ZERO = """mesh: {block: {size: [1, 1, 1], divisions: [1, 1, 1]}}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: zmin}, displacement: [0, 0, 0]}]
+loads:
+  - {on: {boundary: xmax}, total_force: [1, 0, 0]}
+  - {on: {boundary: zmax}, pressure: VALUE}
+"""
+NEVER_ZERO = "cases: [{name: calm, loads: [{on: {boundary: xmin}, traction: [0, 0, 0]}]}, {name: wind}]\n"
+
+
+def zero_loads(folder):
+    words = "zero.yaml:6: this load is zero, and does nothing"
+    for text, more, warned in ((ZERO, (), True), (ZERO.replace("VALUE", "5"), (), False),
+                               (ZERO, ("--set", "loads.1.pressure=0"), False),
+                               (ZERO + "sweep: {loads.1.pressure: [1, 2]}\n", (), False),
+                               (ZERO + NEVER_ZERO, (), True),
+                               (ZERO.replace("VALUE", "5") + NEVER_ZERO, (), False)):
+        write(folder, "zero.yaml", text.replace("VALUE", "0"))
+        ended = run("check", "zero.yaml", *more, folder=folder)
+        check(ended.exit_code == 0 and (words in ended.errors) == warned and ("is zero" in ended.errors) == warned,
+              f"{text} {more}: {ended.errors}")
+    swept = run("sweep", "zero.yaml", "--case", "wind", "--over", "loads.1.pressure=0,1", folder=folder)
+    check(swept.exit_code == 0 and "is zero" not in swept.errors, swept.errors)
+
+
+# A later material stands in the place of an earlier one: the other order is likely meant.
+def overridden_materials(folder):
+    one = "{region: %s, youngs_modulus: 1, poissons_ratio: 0.3}"
+    for regions, warned in ((("block", "all"), True), (("all", "block"), False), (("block", "block"), True)):
+        write(folder, "two.yaml", ZERO.replace("VALUE", "5").replace(one % "all", ", ".join(one % region for region in regions)))
+        ended = run("check", "two.yaml", folder=folder)
+        check(ended.exit_code == 0 and ("two.yaml:2: the material of region 'block' is nowhere" in ended.errors) == warned,
+              f"{regions}: {ended.errors}")
 
 
 main()

@@ -126,6 +126,21 @@ static void every_flavour_gives_the_same_mesh(void **state)
     }
 }
 
+/* XML, JSON and case files hold UTF-8 without control characters. */
+static void names_become_plain(void **state)
+{
+    const MshModel model = {"3\n2 5 \"sp\xc3\xa4t\"\n3 1 \"H\xf6hle\x01x\"\n3 2 \"\xe4\xc4\"\n", 6, 7, nodes4,
+                            elements4};
+    assert_success(read_mesh(msh_write(&model, msh_flavours[MSH_22_TEXT], "plain.msh")));
+    assert_string_equal(chunk->regions.name[0], "H\xc3\xb6hle x");
+    assert_string_equal(chunk->regions.name[1], "\xc3\xa4\xc3\x84");
+    boundary("sp\xc3\xa4t");
+    drop_mesh();
+    const MshModel twice = {"2\n3 1 \"a\x01\"\n3 2 \"a\x02\"\n", 6, 7, nodes4, elements4};
+    assert_failure(read_mesh(msh_write(&twice, msh_flavours[MSH_22_TEXT], "twice.msh")), OST_INVALID_INPUT,
+                   "twice.msh: two regions are called 'a ', but for control characters");
+}
+
 static void without_physical_volumes_there_is_one_region(void **state)
 {
     const MshElement tet = {3, 4, 3, 0, 1, {10, 20, 31, 40}};
@@ -753,6 +768,7 @@ static void missing_files_and_unknown_endings_are_named(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_flavour_gives_the_same_mesh),
+    cmocka_unit_test(names_become_plain),
     cmocka_unit_test(without_physical_volumes_there_is_one_region),
     cmocka_unit_test(second_order_tets_come_in_our_order),
     cmocka_unit_test(tets_come_in_the_order_of_their_tags),

@@ -186,6 +186,8 @@ static void boundaries_that_do_not_fit_are_named(void **state)
     refuses(&arrays, "two boundaries are called 'face'");
     boundaries[1].name = "";
     refuses(&arrays, "boundary 1 (counted from 0) has no name");
+    boundaries[1].name = "a\x01";
+    refuses(&arrays, "the name of boundary 1 (counted from 0) holds a control character");
     boundaries[1] = (OstBoundaryArrays){"far", 3, 1, corner};
     refuses(&arrays, "boundary 'far' has dimension 3 and 1 items");
     boundaries[1] = (OstBoundaryArrays){"far", 0, 1, (const OstGlobal[]){5}};

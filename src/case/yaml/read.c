@@ -70,6 +70,8 @@ static OstStatus raise_unknown_key(const OstYaml *yaml, const OstYamlNode *mappi
     const int listed = key_names(keys, count, names);
     const char *word = scalar_text(yaml, key);
     const char *nearest = word_for(word, names, listed);
+    if (strcmp(word, "<<") == 0)
+        return ost_yaml_raise(yaml, key, "'<<' merges mappings in YAML 1.1 alone; write their keys out");
     if (word[0] && word[strspn(word, "0123456789")] == '\0')
         return ost_yaml_raise(yaml, key, "unknown key '%.80s' in %s; decimals follow a point, and no comma: 0.3", word,
                               ost_yaml_place(yaml, mapping, place, sizeof place));
@@ -195,6 +197,10 @@ OstStatus ost_yaml_text(const OstYaml *yaml, const OstYamlNode *node, const char
     *text = NULL;
     if (!ost_yaml_is(yaml, node, OST_YAML_SCALAR) || scalar_text(yaml, node)[0] == 0)
         return ost_yaml_raise_type(yaml, node, "a text", "");
+    for (const char *letter = scalar_text(yaml, node); *letter; letter++)
+        if ((unsigned char)*letter < ' ' && *letter != '\n' && *letter != '\t')
+            return ost_yaml_raise(yaml, node, "found the control character \\x%02x in a text; leave it out",
+                                  (unsigned)*letter);
     *text = scalar_text(yaml, node);
     return OST_SUCCESS;
 }
@@ -313,7 +319,8 @@ OstStatus ost_yaml_word(const OstYaml *yaml, const OstYamlNode *node, const char
         return ost_yaml_raise_type(yaml, node, "one of", list);
     const char *text = scalar_text(yaml, node);
     for (int w = 0; w < count; w++)
-        if (strcmp(words[w], text) == 0)
+        if (strcmp(words[w], text) == 0 || (strcmp(words[w], "on") == 0 && strcmp(text, "true") == 0) ||
+            (strcmp(words[w], "off") == 0 && strcmp(text, "false") == 0)) /* as Python's yaml reads and writes them */
             *which = w;
     if (*which >= 0)
         return OST_SUCCESS;

@@ -78,12 +78,25 @@ static OstStatus check_aliases(const Setting *setting, const Splice *splice)
     return OST_SUCCESS;
 }
 
+/* Of a sweep no key may change what another one sets: the last would win. */
+static OstStatus check_lasting(const Setting *setting, const Splice *splice)
+{
+    const OstYaml *yaml = setting->yaml;
+    for (uint32_t i = splice->at; yaml->lasting > 0 && i < splice->at + splice->removed; i++)
+        if ((int)yaml->node[i].set >= yaml->lasting)
+            return OST_RAISE(yaml->ctx, OST_INVALID_USAGE,
+                             "%s: the sweep sets one value by two keys, %.200s and %.200s; leave one out", yaml->path,
+                             yaml->setting[yaml->node[i].set - 1], setting->text);
+    return OST_SUCCESS;
+}
+
 static OstStatus insert(const Setting *setting, const Splice *splice)
 {
     OstYaml *yaml = setting->yaml;
     const OstYaml *from = splice->from;
     OstYamlNode *node = NULL;
     OST_TRY(check_aliases(setting, splice));
+    OST_TRY(check_lasting(setting, splice));
     OST_TRY(OST_NEW(yaml->ctx, &node, moved(splice, yaml->count)));
     for (uint32_t i = 0; i < splice->at; i++)
         node[i] = shifted(splice, &yaml->node[i], i);

@@ -62,7 +62,7 @@ static OstStatus raise_syntax(const Walk *walk, const yaml_parser_t *parser)
     if (parser->error == YAML_MEMORY_ERROR)
         return OST_RAISE(walk->yaml->ctx, OST_OUT_OF_MEMORY, "%s: out of memory in the YAML parser", walk->yaml->path);
     if (parser->error == YAML_READER_ERROR) {
-        snprintf(problem, sizeof problem, "not text in UTF-8: %s", what);
+        snprintf(problem, sizeof problem, "not text in UTF-8: %s; save the file as UTF-8", what);
         return raise_at(walk, mark_of_byte(walk, parser->problem_offset), problem);
     }
     snprintf(problem, sizeof problem, "not YAML: %s%s%s%s", parser->context ? parser->context : "",

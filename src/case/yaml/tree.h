@@ -34,6 +34,7 @@ typedef struct OstYaml {
     size_t text_size;
     int settings; /* that have changed the tree, in their words */
     char **setting;
+    int lasting; /* settings from this number on (1 is the first) are not set again; 0: all may be */
 } OstYaml;
 
 /* Limits; a file beyond them is refused with a message. */

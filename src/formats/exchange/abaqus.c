@@ -208,6 +208,8 @@ static OstStatus read_node(OstInp *inp)
     OST_TRY(ost_lines_integer(inp->lines, "the number of a node", &label));
     for (int d = 0; d < 3 && !ost_lines_ended(inp->lines); d++)
         OST_TRY(ost_lines_number(inp->lines, "a coordinate", &x[d]));
+    inp->own_nodes |= inp->instance_count > 0 && !inp->inside;
+    label = ost_inp_number(inp, OST_SET_OF_NODES, "", label);
     OST_TRY(ost_cells_add_node(&inp->cells, label, x));
     return inp->set < 0 ? OST_SUCCESS : ost_cells_put(&inp->cells, inp->set, label);
 }
@@ -278,37 +280,6 @@ static int generates(const char *name)
     return 0;
 }
 
-/* --- parts --- */
-
-static const char without_parts[] = "each has its own numbers. Write the model without parts and assemblies (in CAE: "
-                                    "model attributes, 'Do not use parts "
-                                    "and assemblies in input files')";
-
-static OstStatus begin_part(OstInp *inp)
-{
-    return ++inp->parts > 1 && inp->cells.chunk->node_count > 0
-               ? OST_RAISE_LINE(inp->lines, "a second part; %s", without_parts)
-               : OST_SUCCESS;
-}
-
-static OstStatus begin_instance(OstInp *inp)
-{
-    inp->block = OST_INP_INSTANCE;
-    inp->instance_lines = 0;
-    if (++inp->instances > 1)
-        return OST_RAISE_LINE(inp->lines, "a second instance; %s", without_parts);
-    return OST_SUCCESS;
-}
-
-static OstStatus read_instance_line(OstInp *inp)
-{
-    if (inp->instance_lines++ > 0)
-        return OST_RAISE_LINE(inp->lines, "the instance is turned; write the model without parts and assemblies");
-    for (int d = 0; d < 3; d++)
-        OST_TRY(ost_lines_number(inp->lines, "a component of the instance's translation", &inp->shift[d]));
-    return OST_SUCCESS;
-}
-
 /* --- the file --- */
 
 static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth);
@@ -361,7 +332,7 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
     if (strcmp(name, "INCLUDE") == 0)
         return include(inp, keyword, depth);
     inp->block = OST_INP_NOTHING;
-    inp->set = -1;
+    inp->set = inp->of = -1;
     if (strcmp(name, "NODE") == 0)
         return begin_nodes(inp, keyword);
     if (strcmp(name, "ELEMENT") == 0)
@@ -380,8 +351,12 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
     if (strcmp(name, "SYSTEM") == 0)
         inp->block = OST_INP_SYSTEM;
     if (strcmp(name, "PART") == 0)
-        return begin_part(inp);
-    return strcmp(name, "INSTANCE") == 0 ? begin_instance(inp) : OST_SUCCESS;
+        return ost_inp_begin_part(inp, keyword);
+    if (strcmp(name, "ENDPART") == 0)
+        return ost_inp_end_part(inp);
+    if (strcmp(name, "INSTANCE") == 0)
+        return ost_inp_begin_instance(inp, keyword);
+    return strcmp(name, "ENDINSTANCE") == 0 ? ost_inp_end_instance(inp) : OST_SUCCESS;
 }
 
 static OstStatus read_data_line(OstInp *inp)
@@ -399,7 +374,7 @@ static OstStatus read_data_line(OstInp *inp)
     case OST_INP_SURFACE:
         return ost_inp_surface_line(inp);
     case OST_INP_INSTANCE:
-        return read_instance_line(inp);
+        return ost_inp_instance_line(inp);
     case OST_INP_SYSTEM:
         return OST_RAISE_LINE(inp->lines,
                               "*SYSTEM turns or shifts the nodes after it, which is not read; write them in "
@@ -448,20 +423,19 @@ static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)
     const OstStatus status = read_lines(inp, &lines, 0);
     ost_lines_close(&lines);
     OST_TRY(status);
+    OST_TRY(ost_inp_end_parts(inp));
     choose_regions(inp);
     drop_quotes(&inp->cells);
-    for (size_t n = 0; n < (size_t)inp->cells.chunk->node_count; n++)
-        for (size_t d = 0; d < 3; d++)
-            inp->cells.chunk->coordinates[3 * n + d] += inp->shift[d];
     return ost_cells_finish(&inp->cells, chunk);
 }
 
 OstStatus ost_abaqus_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
-    OstInp inp = {.ctx = ctx, .set = -1};
+    OstInp inp = {.ctx = ctx, .set = -1, .of = -1};
     OstStatus status = ost_cells_open(ctx, path, &inp.cells);
     inp.cells.same_names = same_names;
     OST_THEN(read_file(&inp, path, chunk));
+    ost_inp_close_parts(&inp);
     ost_cells_close(&inp.cells);
     return status;
 }

@@ -28,10 +28,24 @@ typedef struct OstInpKeyword {
     int quoted[OST_INP_PARAMETERS]; /* had the value quotes? */
 } OstInpKeyword;
 
+/* A part, and an instance of one: its translation, and the line and degrees of its turn (abaqus_parts.c). */
+typedef struct OstInpPart {
+    char name[OST_INP_WORD];
+    OstCells cells;
+} OstInpPart;
+typedef struct OstInpInstance {
+    char name[OST_INP_WORD];
+    int lines;
+    double line[2][7];
+} OstInpInstance;
+enum { OST_INP_OUTSIDE, OST_INP_PART, OST_INP_INSTANCE_OF };
+
 /* An .inp file while it is read. */
 typedef struct OstInp {
     OstContext *ctx;
-    OstCells cells;
+    OstCells cells;       /* of what is read now */
+    OstCells outer;       /* of the assembly, while a part or an instance is read */
+    int inside;           /* one of OST_INP_OUTSIDE, ... */
     OstLineReader *lines; /* of the file that is read now: the first, or one that it includes */
     OstInpBlock block;
     int set;      /* the set that data lines fill, or -1 */
@@ -43,9 +57,13 @@ typedef struct OstInp {
     const char *shape; /* of elements that are skipped */
     char type[OST_INP_WORD];
     int dimension;
-    int parts, instances, instance_lines;
-    double shift[3]; /* of the instance */
-    int sections;    /* *SOLID SECTION found? */
+    int part_count, instance_count;
+    OstInpPart *part;
+    OstInpInstance *instance;
+    int first_sets; /* sets of the first instance */
+    int of;         /* instance of the set that is read, or -1 */
+    int own_nodes;  /* has the assembly nodes of its own, such as reference points? */
+    int sections;   /* *SOLID SECTION found? */
     OstGlobal left_out;
 } OstInp;
 
@@ -58,6 +76,21 @@ const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter);
  * quotes, "" at the line's end. Returns `name`, or NULL if the parameter is not there. */
 const char *ost_inp_set_name(const OstInpKeyword *keyword, const char *parameter, char name[OST_INP_WORD]);
 void ost_inp_word(OstLineReader *lines, char word[OST_INP_WORD]);
+
+/* Local. Parts and instances: begin and end one, read a data line of an instance; end and close them all. */
+OstStatus ost_inp_begin_part(OstInp *inp, const OstInpKeyword *keyword);
+OstStatus ost_inp_end_part(OstInp *inp);
+OstStatus ost_inp_begin_instance(OstInp *inp, const OstInpKeyword *keyword);
+OstStatus ost_inp_instance_line(OstInp *inp);
+OstStatus ost_inp_end_instance(OstInp *inp);
+OstStatus ost_inp_end_parts(OstInp *inp);
+void ost_inp_close_parts(OstInp *inp);
+
+/* Local. Takes the INSTANCE of a set. The label of a node, or of something else, by its number in an instance, whose
+ * name may stand before it in `word` (ARM-1.17); the set of a name, likewise (ARM-1.TOP), or -1. */
+OstStatus ost_inp_set_instance(OstInp *inp, const OstInpKeyword *keyword);
+OstGlobal ost_inp_number(const OstInp *inp, OstSetKind kind, const char *word, OstGlobal label);
+int ost_inp_find_set(const OstInp *inp, OstSetKind kind, const char *word);
 
 /* Local. Begin the blocks of sets and surfaces; read one data line of them. */
 OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKind kind);

@@ -12,18 +12,6 @@
 
 /* Sets and surfaces of Abaqus's and CalculiX's input. */
 
-/* A set may come with its instance: Part-1-1.TOP. */
-static int find_set(const OstInp *inp, OstSetKind kind, const char *word)
-{
-    char inner[OST_INP_WORD];
-    const char *dot = strrchr(word, '.');
-    const int found = ost_cells_find_set(&inp->cells, kind, word);
-    if (found >= 0 || !dot)
-        return found;
-    snprintf(inner, sizeof inner, "%s%s", word[0] == '"' ? "\"" : "", dot + 1);
-    return ost_cells_find_set(&inp->cells, kind, inner);
-}
-
 /* The nodes of the elements of a set. */
 static OstStatus put_nodes_of(OstInp *inp, int from)
 {
@@ -47,7 +35,7 @@ static OstStatus take_elements(OstInp *inp, const OstInpKeyword *keyword)
     char name[OST_INP_WORD];
     if (!ost_inp_set_name(keyword, "ELSET", name))
         return OST_SUCCESS;
-    const int from = find_set(inp, OST_SET_OF_CELLS, name);
+    const int from = ost_inp_find_set(inp, OST_SET_OF_CELLS, name);
     return from >= 0 ? put_nodes_of(inp, from)
                      : OST_RAISE_LINE(inp->lines, "there is no element set '%s' before this line", name);
 }
@@ -61,6 +49,7 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
                               keyword->name);
     inp->block = OST_INP_SET;
     inp->generate = ost_inp_value(keyword, "GENERATE") != NULL;
+    OST_TRY(ost_inp_set_instance(inp, keyword));
     OST_TRY(ost_cells_set(&inp->cells, kind, name, &inp->set));
     /* CAE keeps the tets of a surface in sets of its own. */
     if (ost_inp_value(keyword, "INTERNAL"))
@@ -79,20 +68,22 @@ static OstStatus read_range(OstInp *inp)
         return OST_RAISE_LINE(
             inp->lines, "the range %" PRId64 " to %" PRId64 " in steps of %" PRId64 " found, expected it to ascend",
             first, last, step);
-    return ost_cells_put_range(&inp->cells, inp->set, first, last, step);
+    const OstSetKind kind = inp->cells.set[inp->set].kind;
+    return ost_cells_put_range(&inp->cells, inp->set, ost_inp_number(inp, kind, "", first),
+                               ost_inp_number(inp, kind, "", last), step);
 }
 
 /* A number, or the name of a set before. A number may come with its instance: Part-1-1.17. */
 static OstStatus put_word(OstInp *inp, const char *word)
 {
     const OstSetKind kind = inp->cells.set[inp->set].kind;
-    const int from = find_set(inp, kind, word);
+    const int from = ost_inp_find_set(inp, kind, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
     const OstGlobal label = strtoll(digits, &end, 10);
     if (isdigit((unsigned char)digits[0]) && *end == '\0' && label <= OST_LARGEST_LABEL)
-        return ost_cells_put(&inp->cells, inp->set, label);
+        return ost_cells_put(&inp->cells, inp->set, ost_inp_number(inp, kind, word, label));
     if (from < 0)
         return OST_RAISE_LINE(inp->lines, "'%s' found, expected a number or the name of a set before this one", word);
     return ost_cells_put_set(&inp->cells, inp->set, from);
@@ -121,6 +112,7 @@ OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
         return OST_SUCCESS; /* one that is no part of the mesh */
     inp->block = of_nodes ? OST_INP_SET : OST_INP_SURFACE;
     inp->generate = 0;
+    inp->of = -1;
     return ost_cells_set(&inp->cells, of_nodes ? OST_SET_OF_NODES : OST_SET_OF_FACES, name, &inp->set);
 }
 
@@ -145,13 +137,13 @@ static OstStatus put_face(OstInp *inp, OstGlobal label, int side)
 /* The faces of an element, or of all of a set. */
 static OstStatus put_faces(OstInp *inp, const char *word, int side)
 {
-    const int from = find_set(inp, OST_SET_OF_CELLS, word);
+    const int from = ost_inp_find_set(inp, OST_SET_OF_CELLS, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
     char *end = NULL;
     const OstGlobal label = strtoll(digits, &end, 10);
     if (isdigit((unsigned char)digits[0]) && *end == '\0')
-        return put_face(inp, label, side);
+        return put_face(inp, ost_inp_number(inp, OST_SET_OF_CELLS, word, label), side);
     if (from < 0)
         return OST_RAISE_LINE(inp->lines, "'%s' found, expected the number of an element or the name of a set before",
                               word);

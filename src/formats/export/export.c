@@ -47,6 +47,9 @@ static OstStatus write_alone(const OstMesh *mesh, const char *path, OstStatus (*
 OstStatus ost_mesh_export(const OstMesh *mesh, const char *path)
 {
     OST_TRY(ost_mesh_export_check(mesh->ctx, path));
+    if (mesh->tet_axes && ends_with(path, ".inp"))
+        ost_warn(mesh->ctx, "%s: the material axes of the tets are left out; a .vtkhdf, .vtu or .msh file holds them",
+                 path);
     for (int w = 0; w < WRITERS; w++)
         if (ends_with(path, writers[w].ending))
             return write_alone(mesh, path, writers[w].write);

@@ -42,6 +42,8 @@ static OstStatus gather_tets(const OstMesh *mesh, OstMeshChunk *whole)
     OST_THEN(ost_route_carry(route, width * sizeof *nodes, nodes, (void **)&whole->tet_nodes));
     OST_THEN(ost_route_carry(route, sizeof(OstGlobal), mesh->tet_label, (void **)&whole->tet_label));
     OST_THEN(ost_route_carry(route, sizeof(int32_t), mesh->tet_region, (void **)&whole->tet_region));
+    if (mesh->tet_axes)
+        OST_THEN(ost_route_carry(route, 9 * sizeof(double), mesh->tet_axes, (void **)&whole->tet_axes));
     if (status == OST_SUCCESS)
         whole->tet_count = route->receives;
     ost_route_destroy(&route);
@@ -166,6 +168,8 @@ static OstStatus order_tets(OstMeshChunk *whole)
                      (void **)&whole->tet_nodes));
     OST_THEN(reorder(ctx, whole->tet_count, item, sizeof(OstGlobal), (void **)&whole->tet_label));
     OST_THEN(reorder(ctx, whole->tet_count, item, sizeof(int32_t), (void **)&whole->tet_region));
+    if (whole->tet_axes)
+        OST_THEN(reorder(ctx, whole->tet_count, item, 9 * sizeof(double), (void **)&whole->tet_axes));
     OST_FREE(place, item);
     return status;
 }

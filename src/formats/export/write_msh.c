@@ -127,6 +127,18 @@ static void write_elements(FILE *file, const OstMeshChunk *whole)
     fputs("$EndElements\n", file);
 }
 
+static void write_axes(FILE *file, const OstMeshChunk *whole)
+{
+    fprintf(file, "$ElementData\n1\n\"axes\"\n1\n0\n3\n0\n9\n%d\n", whole->tet_count);
+    for (OstLocal t = 0; t < whole->tet_count; t++) {
+        fprintf(file, "%" PRId64, whole->tet_label[t]);
+        for (size_t k = 0; k < 9; k++)
+            fprintf(file, " %.17g", whole->tet_axes[9 * (size_t)t + k]);
+        fputc('\n', file);
+    }
+    fputs("$EndElementData\n", file);
+}
+
 OstStatus ost_msh_write(FILE *file, const void *content)
 {
     const OstMeshChunk *whole = content;
@@ -135,5 +147,7 @@ OstStatus ost_msh_write(FILE *file, const void *content)
     write_entities(file, whole);
     write_nodes(file, whole);
     write_elements(file, whole);
+    if (whole->tet_axes)
+        write_axes(file, whole);
     return OST_SUCCESS;
 }

@@ -91,6 +91,19 @@ static void write_cells(FILE *file, const OstMeshChunk *whole)
     fputs("</Cells>\n", file);
 }
 
+/* Of boundaries' items they mean nothing. */
+static void write_axes(FILE *file, const OstMeshChunk *whole, OstGlobal cells)
+{
+    static const double along_world[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    fputs("<DataArray type=\"Float64\" Name=\"axes\" NumberOfComponents=\"9\" format=\"ascii\">\n", file);
+    for (OstGlobal c = 0; c < cells; c++) {
+        const double *axes = c < whole->tet_count ? whole->tet_axes + 9 * c : along_world;
+        for (int k = 0; k < 9; k++)
+            fprintf(file, "%.17g%c", axes[k], k == 8 ? '\n' : ' ');
+    }
+    close_array(file);
+}
+
 OstStatus ost_vtu_mesh_write(FILE *file, const void *content)
 {
     const OstMeshChunk *whole = content;
@@ -106,6 +119,8 @@ OstStatus ost_vtu_mesh_write(FILE *file, const void *content)
     open_array(file, "Int32", "region");
     write_of_cells(file, REGION, whole);
     close_array(file);
+    if (whole->tet_axes)
+        write_axes(file, whole, cells);
     fputs("</CellData>\n<Points>\n", file);
     fputs("<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n", file);
     for (OstLocal n = 0; n < whole->node_count; n++)

@@ -72,7 +72,8 @@ void ost_vtk_clear(OstVtkGrid *grid)
 {
     for (int a = 0; a < grid->array_count; a++)
         OST_FREE(grid->array[a].values);
-    OST_FREE(grid->array, grid->name, grid->coordinates, grid->end, grid->connectivity, grid->type);
+    OST_FREE(grid->array, grid->name, grid->coordinates, grid->end, grid->connectivity, grid->type, grid->piece_start,
+             grid->same);
 }
 
 const char *ost_vtk_region_name(int number)
@@ -87,6 +88,8 @@ int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlo
     for (int n = 0; n < REGION_NAMES; n++)
         if (strcasecmp(region_names[n], name) == 0)
             return 1;
+    if (ost_vtk_numbers_points(name) && components == 1)
+        return 1;
     return grid->by_meshio && is_whole && components == 1;
 }
 
@@ -245,7 +248,8 @@ static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
     for (int n = 0; n < grid->name_count; n++)
         OST_TRY(ost_cells_name(cells, grid->name[n].dimension, grid->name[n].number, grid->name[n].name));
     for (OstGlobal p = 0; p < grid->points; p++)
-        OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
+        if (!grid->same || grid->same[p] == p)
+            OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
     for (OstGlobal c = 0; c < grid->cells; c++)
         OST_TRY(add_cell(grid, c, group_of(sets ? sets : region, sets != NULL, c), cells));
     return ost_vtk_take_point_sets(grid, cells);
@@ -293,6 +297,7 @@ OstStatus ost_vtk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
     OstVtkGrid grid;
     OstCells cells = {0};
     OstStatus status = read_grid(ctx, path, NULL, &grid);
+    OST_THEN(ost_vtk_join_pieces(&grid));
     OST_THEN(ost_cells_open(ctx, path, &cells));
     OST_THEN(add_all(&grid, &cells));
     ost_vtk_clear(&grid);

@@ -37,6 +37,9 @@ typedef struct OstVtkGrid {
     OstGlobal connections;
     OstGlobal *connectivity;
     unsigned char *type;
+    int piece_count;
+    OstGlobal *piece_start; /* first point of each piece */
+    OstGlobal *same;        /* the point that stands for each one; NULL: each for itself */
     int array_count;
     OstVtkArray *array;
     int name_count;
@@ -48,6 +51,14 @@ OstStatus ost_vtk_legacy_grid(OstMshCursor *cursor, OstVtkGrid *grid);
 OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid);
 OstStatus ost_vtk_hdf_grid(OstVtkGrid *grid);
 void ost_vtk_clear(OstVtkGrid *grid);
+
+/* Local. Begins a piece, whose points come next. Joins the points that pieces share: raises OST_INVALID_INPUT where it
+ * is not clear which they are. */
+OstStatus ost_vtk_begin_piece(OstVtkGrid *grid, OstGlobal first_point);
+OstStatus ost_vtk_join_pieces(OstVtkGrid *grid);
+
+/* Local. Is it a name of point arrays that number points over all pieces? */
+int ost_vtk_numbers_points(const char *name);
 
 /* Local. Names of cell arrays that may say which region a cell is in, from 0; NULL after the last. */
 const char *ost_vtk_region_name(int number);

@@ -6,6 +6,7 @@
 #include "formats/vtk/vtk.h"
 #include "formats/vtkhdf/dry_run.h"
 #include "formats/vtkhdf/kind.h"
+#include "formats/vtkhdf/points.h"
 #include "formats/vtkhdf/steps.h"
 
 #include <inttypes.h>
@@ -49,10 +50,11 @@ static OstStatus read_counts(const OstHdf5 *h5, OstVtkGrid *grid, Pieces *pieces
 }
 
 /* A piece has one offset more than cells, and counts from 0. */
-static OstStatus place_pieces(const OstVtkGrid *grid, const Pieces *pieces, const OstGlobal *offset)
+static OstStatus place_pieces(OstVtkGrid *grid, const Pieces *pieces, const OstGlobal *offset)
 {
     OstGlobal point = 0, cell = 0, connection = 0;
     for (OstGlobal p = 0; p < pieces->count; p++) {
+        OST_TRY(ost_vtk_begin_piece(grid, point));
         for (OstGlobal c = 0; c < pieces->cells[p]; c++) {
             const OstGlobal end = offset[cell + p + c + 1];
             if (end < 0 || end > pieces->connections[p])
@@ -130,6 +132,8 @@ static OstStatus read_all(const OstHdf5 *h5, OstVtkGrid *grid)
         OST_THEN(take_array(h5, grid, on_points, grid->wanted));
     for (int n = 0; ost_vtk_region_name(n) && !grid->wanted; n++)
         OST_THEN(take_array(h5, grid, 0, ost_vtk_region_name(n)));
+    for (int n = 1; ost_point_labels[n] && !grid->wanted && pieces.count > 1; n++)
+        OST_THEN(take_array(h5, grid, 1, ost_point_labels[n]));
     OST_FREE(pieces.points, pieces.cells, pieces.connections);
     return status;
 }

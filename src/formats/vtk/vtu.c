@@ -117,6 +117,7 @@ static OstStatus begin_piece(Vtu *vtu, const OstXmlTag *tag)
 {
     OstVtkGrid *grid = vtu->grid;
     OST_TRY(end_piece(vtu)); /* one that the file does not end */
+    OST_TRY(ost_vtk_begin_piece(grid, grid->points));
     vtu->first_point = grid->points;
     vtu->first_cell = grid->cells;
     vtu->first_connection = grid->connections;

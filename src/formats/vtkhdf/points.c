@@ -8,6 +8,9 @@
 
 #include <string.h>
 
+const char *const ost_point_labels[] = {"vertex",        "GlobalNodeId", "GlobalNodeIds", "GlobalPointIds",
+                                        "GlobalPointId", "GlobalIds",    "vtkGlobalIds",  NULL};
+
 /* What must be equal for two points to match. */
 typedef enum { PLACE = 1, PIECE = 2, PLACE_AND_LABEL = 4 } Criterion;
 
@@ -76,12 +79,13 @@ static OstStatus raise_duplicate(const Merge *merge, OstLocal i)
     const long long piece = piece_of(points, b);
     if (points->label)
         return OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
-                         "%s: points %lld and %lld of piece %lld both have the label %lld in the array \"vertex\"; "
+                         "%s: points %lld and %lld of piece %lld both have the label %lld in the array \"%s\"; "
                          "labels must differ within a piece",
-                         merge->h5->path, a, b, piece, (long long)points->label[i]);
+                         merge->h5->path, a, b, piece, (long long)points->label[i], points->labelled);
     return OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
                      "%s: points %lld and %lld of piece %lld are at the same place, so it is unknown which of them "
-                     "other pieces share; give the points labels (an integer point array \"vertex\")",
+                     "other pieces share; give the points labels (an integer point array \"vertex\" or "
+                     "\"GlobalNodeId\")",
                      merge->h5->path, a, b, piece);
 }
 
@@ -105,9 +109,9 @@ static OstStatus check_places(Merge *merge)
         if (merge->matched[i] != merge->representative[i])
             status = OST_RAISE(merge->h5->ctx, OST_INVALID_INPUT,
                                "%s: points %lld and %lld are both vertex %lld but lie at different places; the labels "
-                               "in the array \"vertex\" must say which points are one",
+                               "in the array \"%s\" must say which points are one",
                                merge->h5->path, (long long)merge->representative[i], (long long)merge->self[i],
-                               (long long)merge->points->label[i]);
+                               (long long)merge->points->label[i], merge->points->labelled);
     return ost_agree(merge->h5->ctx, status);
 }
 
@@ -187,6 +191,8 @@ OstStatus ost_file_points_merge(const OstHdf5 *h5, OstFilePoints *points, OstMes
     OstRows nodes;
     OST_TRY_DONE(ost_agree(ctx, allocate_merge(ctx, &merge)));
     OST_TRY_DONE(find_representatives(&merge));
+    if (points->label && points->labelled != ost_point_labels[0])
+        OST_FREE(points->label);
     OST_TRY_DONE(ost_agree(ctx, take_nodes(&merge, chunk)));
     OST_TRY_DONE(ost_rows_create(ctx, chunk->node_count, &nodes));
     chunk->first_node = nodes.first;

@@ -8,6 +8,10 @@
 /* Each piece of a file has its own copy of the points it uses, so a node on the border of pieces occurs several times.
  * The first of these points in the file becomes the node; nodes are numbered in the order of their points. */
 
+/* Names of point arrays that say which points of pieces are one; NULL after the last. The first is that of vertex
+ * numbers in a file of Orthostat, the others number the points of other programs over all pieces. */
+extern const char *const ost_point_labels[];
+
 /* This rank's share of the file's points, regardless of where pieces begin and end. */
 typedef struct OstFilePoints {
     OstGlobal first, total; /* in the file, over all pieces */
@@ -15,7 +19,8 @@ typedef struct OstFilePoints {
     OstGlobal piece_count;
     OstGlobal *piece_start; /* piece_count + 1: first point of each piece */
     double *coordinates;    /* count × 3 */
-    OstGlobal *label;       /* NULL if the file has no "vertex" array */
+    OstGlobal *label;       /* NULL if the file has no array of them */
+    const char *labelled;   /* its name: "vertex", or another program's numbers over all pieces, not kept */
     OstGlobal *node;        /* number of the node each point is, once merged */
 } OstFilePoints;
 

@@ -10,6 +10,7 @@
 #include "formats/vtkhdf/points.h"
 #include "formats/vtkhdf/steps.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* VTK's numbers of the cell types we know. */
@@ -88,11 +89,27 @@ static OstStatus read_counts(Reader *reader)
     return take_share(h5, "tets", chunk->global_tets, &chunk->first_tet, &chunk->tet_count);
 }
 
+static OstStatus read_labels(Reader *reader)
+{
+    const OstHdf5 *h5 = &reader->h5;
+    OstFilePoints *points = &reader->points;
+    for (int i = 0; ost_point_labels[i] && (i == 0 || points->piece_count > 1); i++) {
+        char name[64];
+        snprintf(name, sizeof name, "/VTKHDF/PointData/%s", ost_point_labels[i]);
+        if (!ost_hdf5_has(h5, name))
+            continue;
+        points->labelled = ost_point_labels[i];
+        OST_TRY(OST_NEW(h5->ctx, &points->label, points->count));
+        return ost_hdf5_read_rows(h5, name, H5T_NATIVE_INT64, 1, points->total, points->first, points->count,
+                                  points->label);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus read_points(Reader *reader)
 {
     const OstHdf5 *h5 = &reader->h5;
     OstFilePoints *points = &reader->points;
-    static const char labels[] = "/VTKHDF/PointData/vertex";
     OstGlobal rows = 0;
     int components = 0;
     OST_TRY(ost_hdf5_shape(h5, "/VTKHDF/Points", &rows, &components)); /* before memory is allocated for them */
@@ -102,11 +119,7 @@ static OstStatus read_points(Reader *reader)
     OST_TRY(OST_NEW(h5->ctx, &points->coordinates, 3 * (size_t)points->count));
     OST_TRY(ost_hdf5_read_rows(h5, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, 3, points->total, points->first, points->count,
                                points->coordinates));
-    if (!ost_hdf5_has(h5, labels))
-        return OST_SUCCESS;
-    OST_TRY(OST_NEW(h5->ctx, &points->label, points->count));
-    return ost_hdf5_read_rows(h5, labels, H5T_NATIVE_INT64, 1, points->total, points->first, points->count,
-                              points->label);
+    return read_labels(reader);
 }
 
 static OstStatus read_types(Reader *reader)
@@ -254,14 +267,14 @@ static OstStatus read_regions(Reader *reader)
 
 static OstStatus read_tets(Reader *reader)
 {
-    static const char labels[] = "/VTKHDF/CellData/tet";
+    static const char tet[] = "/VTKHDF/CellData/tet";
     static const char axes[] = "/VTKHDF/CellData/axes";
     OstMeshChunk *chunk = reader->chunk;
     OST_TRY(read_offsets(reader));
     OST_TRY(read_connectivity(reader));
     OST_TRY(read_regions(reader));
-    if (ost_hdf5_has(&reader->h5, labels))
-        OST_TRY(read_tet_array(reader, labels, H5T_NATIVE_INT64, 1, sizeof(int64_t), (void **)&chunk->tet_label));
+    if (ost_hdf5_has(&reader->h5, tet))
+        OST_TRY(read_tet_array(reader, tet, H5T_NATIVE_INT64, 1, sizeof(int64_t), (void **)&chunk->tet_label));
     OstGlobal rows = 0;
     int components = 0;
     if (ost_hdf5_has(&reader->h5, axes))
@@ -290,17 +303,23 @@ static OstStatus dry_run(OstContext *ctx, const char *path, const char *name)
     const struct {
         const char *name;
         hid_t type;
-    } arrays[] = {{"/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64},   {"/VTKHDF/NumberOfCells", H5T_NATIVE_INT64},
-                  {"/VTKHDF/Points", H5T_NATIVE_DOUBLE},          {"/VTKHDF/Types", H5T_NATIVE_UCHAR},
-                  {"/VTKHDF/Offsets", H5T_NATIVE_INT64},          {"/VTKHDF/Connectivity", H5T_NATIVE_INT64},
-                  {"/VTKHDF/PointData/vertex", H5T_NATIVE_INT64}, {"/VTKHDF/CellData/tet", H5T_NATIVE_INT64},
-                  {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
+    } arrays[] = {{"/VTKHDF/NumberOfPoints", H5T_NATIVE_INT64}, {"/VTKHDF/NumberOfCells", H5T_NATIVE_INT64},
+                  {"/VTKHDF/Points", H5T_NATIVE_DOUBLE},        {"/VTKHDF/Types", H5T_NATIVE_UCHAR},
+                  {"/VTKHDF/Offsets", H5T_NATIVE_INT64},        {"/VTKHDF/Connectivity", H5T_NATIVE_INT64},
+                  {"/VTKHDF/CellData/tet", H5T_NATIVE_INT64},   {"/VTKHDF/CellData/region", H5T_NATIVE_INT32},
+                  {"/VTKHDF/CellData/axes", H5T_NATIVE_DOUBLE}};
     Reader reader = {.h5.file = H5I_INVALID_HID};
     (void)name;
     OstStatus status = ost_hdf5_open(ctx, path, &reader.h5);
     OST_THEN(ost_steps_try(&reader.h5, NULL, NULL));
     OST_THEN(ost_vtkhdf_check_kind(&reader.h5));
     const int can_be_read = status == OST_SUCCESS;
+    for (int i = 0; ost_point_labels[i] && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
+        char label[64];
+        snprintf(label, sizeof label, "/VTKHDF/PointData/%s", ost_point_labels[i]);
+        const OstStatus one = ost_hdf5_try_rows(&reader.h5, label, H5T_NATIVE_INT64);
+        status = one == OST_SUCCESS ? status : one;
+    }
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays && can_be_read && status != OST_OUT_OF_MEMORY; i++) {
         const OstStatus one = ost_hdf5_try_rows(&reader.h5, arrays[i].name, arrays[i].type);
         status = one == OST_SUCCESS ? status : one;

@@ -20,10 +20,15 @@ static OstStatus copy(OstContext *ctx, const char *what, size_t count, size_t si
 
 static OstStatus check_name(OstContext *ctx, const char *what, int number, const char *name)
 {
-    if (name && name[0] != '\0')
-        return OST_SUCCESS;
-    return OST_RAISE(ctx, OST_INVALID_INPUT, "mesh from arrays: %s %d (counted from 0) has no name; give it one", what,
-                     number);
+    if (!name || name[0] == '\0')
+        return OST_RAISE(ctx, OST_INVALID_INPUT, "mesh from arrays: %s %d (counted from 0) has no name; give it one",
+                         what, number);
+    return ost_name_is_plain(name)
+               ? OST_SUCCESS
+               : OST_RAISE(ctx, OST_INVALID_INPUT,
+                           "mesh from arrays: the name of %s %d (counted from 0) holds a control character, or is not "
+                           "UTF-8; choose another",
+                           what, number);
 }
 
 static OstStatus check_counts(OstContext *ctx, const OstMeshArrays *arrays)

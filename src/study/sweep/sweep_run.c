@@ -42,6 +42,7 @@ static OstStatus read_case(const OstSweep *sweep, const OstSweepRun *run, OstCas
         OstCaseText text = sweep->text;
         text.settings = common + sweep->key_count;
         text.setting = setting;
+        text.swept = sweep->key_count;
         status = ost_case_make(ctx, sweep->path, &text, c);
     }
     if (status == OST_SUCCESS && sweep->load_case)
