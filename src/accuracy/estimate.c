@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
 #include "accuracy/search.h"
 #include "core/error.h"
 #include "core/memory.h"

@@ -2,7 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_OPERATOR_H
 #define ORTHOSTAT_ACCURACY_OPERATOR_H
 
-#include "accuracy/light_tets.h"
+#include "accuracy/light/light_tets.h"
 #include "problem/problem.h"
 
 /* Forces and stiffness of the elements and their complement together, tet by tet without a matrix. A displacement has
@@ -39,7 +39,7 @@ void ost_operator_apply(const OstOperator *operator, const double * u, const flo
                         float *of_functions);
 
 /* Local. Of the functions' own 3×3 blocks of the stiffness, along the directions that are not constrained, the inverses
- * as N'N (accuracy/blocks.h). */
+ * as N'N (accuracy/complement/blocks.h). */
 OstStatus ost_operator_blocks(const OstOperator *operator, float * factor);
 
 /* Local. Of each owned tet, twice the strain energy of a displacement. */

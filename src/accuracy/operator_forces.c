@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
 #include "accuracy/cells.h"
 #include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/steps.h"
 
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
 #include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"

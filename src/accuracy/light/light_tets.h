@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_LIGHT_TETS_H
-#define ORTHOSTAT_ACCURACY_LIGHT_TETS_H
+#ifndef ORTHOSTAT_ACCURACY_LIGHT_LIGHT_TETS_H
+#define ORTHOSTAT_ACCURACY_LIGHT_LIGHT_TETS_H
 
 #include "accuracy/complement/complement.h"
 #include "problem/problem.h"
@@ -26,7 +26,7 @@ void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, d
 /* Local. Twice the strain energy of each owned tet. */
 void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy);
 
-/* Local. The functions' own blocks as accuracy/blocks.h. */
+/* Local. The functions' own blocks as accuracy/complement/blocks.h. */
 void ost_light_tets_blocks(const OstLightTets *tets, float *factor);
 
 #endif
