@@ -57,7 +57,7 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
 {
     OstSimd tensor[6];
     if (!elasticity->about_line) {
-        ost_simd_stress(elasticity->c[q], strain, stress);
+        ost_simd_stress(elasticity->c[ost_elasticity_at(elasticity, q)], strain, stress);
         return;
     }
     if (!elasticity->stretch_at)
@@ -107,6 +107,127 @@ OST_KERNEL void ost_straight_forces(const OstSimd *x, const OstElasticity *elast
         integrate_points(x, &tet, elasticity, rule, strain, moment);
     find_own_forces(&tet, moment, at_nodes);
     find_surplus_forces(&tet, moment, at_functions);
+}
+
+/* --- curved tets --- */
+
+/* How a quadratic function of the nodes (3 numbers each) grows with L_1 to L_3, L_0 taking what they leave: at the
+ * vertices, between which it is linear. */
+static inline void find_growth(const OstSimd *of_nodes, OstSimd growth[VERTICES][9])
+{
+    OstSimd along[VERTICES][VERTICES][3]; /* at a vertex, with a coordinate */
+    for (int i = 0; i < 3; i++) {
+        for (int v = 0; v < VERTICES; v++)
+            along[v][v][i] = 3.0 * of_nodes[3 * v + i];
+        for (int e = 0; e < EDGES; e++) {
+            const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+            along[a][b][i] = 4.0 * of_nodes[3 * (4 + e) + i] - of_nodes[3 * b + i];
+            along[b][a][i] = 4.0 * of_nodes[3 * (4 + e) + i] - of_nodes[3 * a + i];
+        }
+    }
+    for (int v = 0; v < VERTICES; v++)
+        for (int i = 0; i < 3; i++)
+            for (int m = 1; m < VERTICES; m++)
+                growth[v][3 * i + m - 1] = along[v][m][i] - along[v][0][i];
+}
+
+static inline void find_growth_at(OstSimd growth[VERTICES][9], const double at[VERTICES], OstSimd here[9])
+{
+    for (int n = 0; n < 9; n++)
+        here[n] = at[0] * growth[0][n] + at[1] * growth[1][n] + at[2] * growth[2][n] + at[3] * growth[3][n];
+}
+
+/* The inverse of J, and its determinant's absolute value. */
+static inline void invert(const OstSimd j[9], OstSimd inverse[9], OstSimd *size)
+{
+    OstSimd columns[9];
+    for (int m = 0; m < 3; m++) {
+        const int b = (m + 1) % 3, c = (m + 2) % 3;
+        for (int i = 0; i < 3; i++) {
+            const int k = (i + 1) % 3, l = (i + 2) % 3;
+            columns[3 * m + i] = j[3 * k + b] * j[3 * l + c] - j[3 * l + b] * j[3 * k + c];
+        }
+    }
+    const OstSimd determinant = j[0] * columns[0] + j[3] * columns[1] + j[6] * columns[2], factor = 1.0 / determinant;
+    for (int n = 0; n < 9; n++)
+        inverse[n] = factor * columns[n];
+    *size = determinant;
+    ost_simd_absolute(size);
+}
+
+/* Of the slope G J^-1, with G how u grows. */
+static inline void find_point_strain(const OstSimd inverse[9], const OstSimd growth[9], OstSimd strain[6])
+{
+    OstSimd slope[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            slope[i][k] =
+                growth[3 * i] * inverse[k] + growth[3 * i + 1] * inverse[3 + k] + growth[3 * i + 2] * inverse[6 + k];
+    ost_strain_of_slope(slope, strain);
+}
+
+/* How functions grow with coordinates are products of two of these: of the stress, times J^-1, their moments are all
+ * that forces need. */
+static inline void add_stress_moments(const double product[PRODUCTS], const OstSimd inverse[9], const OstSimd stress[6],
+                                      OstSimd moment[PRODUCTS][9])
+{
+    for (int m = 0; m < 3; m++) {
+        OstSimd along[3];
+        ost_force_of_stress(inverse + 3 * m, stress, along);
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < PRODUCTS; k++)
+                moment[k][3 * m + i] += product[k] * along[i];
+    }
+}
+
+/* force += factor × a product's moment along coordinate v */
+static inline void add_moment(double factor, const OstSimd moment[9], int v, OstSimd force[3])
+{
+    for (int i = 0; i < 3; i++)
+        force[i] += v > 0 ? factor * moment[3 * (v - 1) + i] : -factor * (moment[i] + moment[3 + i] + moment[6 + i]);
+}
+
+/* The functions are 8 L_a L_b (L_b - L_a), and 27 L_a L_b L_c. */
+static inline void find_functions_forces(OstSimd moment[PRODUCTS][9], OstSimd *at_functions)
+{
+    memset(at_functions, 0, 3 * (EDGES + 4) * sizeof *at_functions);
+    for (int e = 0; e < EDGES; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        add_moment(8.0, moment[b], a, at_functions + 3 * e);
+        add_moment(-16.0, moment[4 + e], a, at_functions + 3 * e);
+        add_moment(16.0, moment[4 + e], b, at_functions + 3 * e);
+        add_moment(-8.0, moment[a], b, at_functions + 3 * e);
+    }
+    for (int f = 0; f < 4; f++)
+        for (int i = 0; i < 3; i++)
+            add_moment(27.0, moment[4 + face_edge[f][i]], ost_tet_face[f][i], at_functions + 3 * (EDGES + f));
+}
+
+OST_KERNEL void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                  const OstSimd *u, OstSimd *at_functions, OstSimd *work)
+{
+    OstSimd of_x[VERTICES][9], of_u[VERTICES][9], moment[PRODUCTS][9];
+    find_growth(x, of_x);
+    find_growth(u, of_u);
+    memset(moment, 0, sizeof moment);
+    *work = (OstSimd){0};
+    for (int q = 0; q < rule->count; q++) {
+        const OstQuadraturePoint *point = &rule->point[q];
+        OstSimd j[9], growth[9], inverse[9], volume, strain[6], stress[6];
+        double product[PRODUCTS];
+        find_growth_at(of_x, point->at, j);
+        find_growth_at(of_u, point->at, growth);
+        invert(j, inverse, &volume);
+        find_point_strain(inverse, growth, strain);
+        find_stress(x, elasticity, rule, q, strain, stress);
+        for (int p = 0; p < 6; p++) {
+            stress[p] *= (point->weight / 6.0) * volume;
+            *work += stress[p] * strain[p];
+        }
+        find_products(point->at, product);
+        add_stress_moments(product, inverse, stress, moment);
+    }
+    find_functions_forces(moment, at_functions);
 }
 
 /* --- the functions' own blocks --- */
