@@ -228,7 +228,6 @@ OstStatus ost_search_take(Search *search, const double *left)
     return OST_SUCCESS;
 }
 
-/* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
     OstSteps *steps = &search->steps;

@@ -44,11 +44,10 @@ void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, con
 }
 
 OST_KERNEL void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity,
-                                       const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS + 1][6])
+                                       const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS][6])
 {
     for (int q = 0; q < rule->count; q++)
         find_stretch(nodes, x, elasticity, rule->point[q].at, tensor[q]);
-    find_stretch(nodes, x, elasticity, ost_tet_degree1.point[0].at, tensor[rule->count]);
 }
 
 /* Of C at point q. */

@@ -25,9 +25,9 @@ void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const 
  * (elasticity->about_line). */
 void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6]);
 
-/* Local. The same of linear or quadratic tets at the points of a rule, and then at the centroid. */
+/* Local. The same of linear or quadratic tets at the points of a rule. */
 void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
-                            OstSimd tensor[OST_MAX_POINTS + 1][6]);
+                            OstSimd tensor[OST_MAX_POINTS][6]);
 
 /* Local. The functions' own 3×3 blocks of the stiffness with a uniform C. */
 void ost_straight_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd block[OST_MAX_FUNCTIONS][9]);

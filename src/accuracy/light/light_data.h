@@ -2,8 +2,9 @@
 #ifndef ORTHOSTAT_ACCURACY_LIGHT_LIGHT_DATA_H
 #define ORTHOSTAT_ACCURACY_LIGHT_LIGHT_DATA_H
 
-#include "accuracy/light/light_tets.h"
-#include "element/elasticity.h"
+#include "accuracy/complement/complement.h"
+
+#include <string.h>
 
 /* What is behind OstLightTets, and how numbers of eight tets are read and written. */
 
@@ -33,7 +34,7 @@ typedef struct AboutLine {
     float about_axis[6], radial, shear;
 } AboutLine;
 
-struct OstLightTets {
+typedef struct OstLightTets {
     const OstMesh *mesh;
     const OstComplement *complement;
     size_t count; /* of eights */
@@ -44,7 +45,7 @@ struct OstLightTets {
     AboutLine line;
     double length, modulus; /* units in which lengths and moduli are kept; their product is that of the stiffness */
     double *u, *force;      /* of nodes, padded */
-};
+} OstLightTets;
 
 /* Three numbers of eight rows. */
 static inline void transpose(const Four row[WIDTH], Eight out[3])
@@ -102,6 +103,32 @@ static inline void find_stretch_at(const AboutLine *line, const Kept offset[OFFS
         const Eight part = share * d[i];
         tensor[i] = line->about_axis[i] + part * d[i];
         tensor[3 + i] = line->about_axis[3 + i] + part * d[(i + 1) % 3];
+    }
+}
+
+/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
+ * is with `along` = A g in place of the gradient g. */
+typedef struct Linear {
+    Eight gradient[4][3], along[4][3], volume;
+    const Kept *elastic;
+    int by_stretch;
+} Linear;
+
+static inline void open_linear(const Eights *eights, const Kept *elastic, int by_stretch, Linear *tet)
+{
+    tet->elastic = elastic;
+    tet->by_stretch = by_stretch;
+    tet->volume = eights->volume;
+    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
+    for (int i = 0; i < 3; i++)
+        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
+    memcpy(tet->along, tet->gradient, sizeof tet->along);
+    for (int v = 0; v < 4 && by_stretch; v++) {
+        const Kept *a = elastic;
+        const Eight *g = tet->gradient[v];
+        tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
+        tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
+        tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
     }
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/light/light_data.h"
+#include "accuracy/light/light_tets.h"
 
 #include "accuracy/complement/blocks.h"
+#include "accuracy/light/light_data.h"
 #include "accuracy/light/quadratic.h"
 #include "assembly/batch.h"
 #include "core/error.h"
@@ -293,32 +294,6 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
 
 /* --- forces of eight tets --- */
 
-/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
- * is with `along` = A g in place of the gradient g. */
-typedef struct Linear {
-    Eight gradient[VERTICES][3], along[VERTICES][3], volume;
-    const Kept *elastic;
-    int by_stretch;
-} Linear;
-
-static inline void open(const Eights *eights, const Kept *elastic, int by_stretch, Linear *tet)
-{
-    tet->elastic = elastic;
-    tet->by_stretch = by_stretch;
-    tet->volume = eights->volume;
-    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
-    for (int i = 0; i < 3; i++)
-        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
-    memcpy(tet->along, tet->gradient, sizeof tet->along);
-    for (int v = 0; v < VERTICES && by_stretch; v++) {
-        const Kept *a = elastic;
-        const Eight *g = tet->gradient[v];
-        tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
-        tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
-        tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
-    }
-}
-
 /* slope += v g' */
 static inline void add_slope(const Eight v[3], const Eight g[3], Eight slope[9])
 {
@@ -417,7 +392,7 @@ static inline void find_eight(const OstLightTets *tets, size_t k, const float *f
 {
     const Eights *eights = &tets->eights[k];
     Linear tet;
-    open(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
+    open_linear(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
     read_nodes(tets, eights, moved);
     read_functions(tets, eights, functions, w);
     find_forces(&tet, moved, w, at_nodes, at_functions);
@@ -592,7 +567,7 @@ OST_KERNEL static void add_all_blocks(const OstLightTets *tets, float *blocks)
             find_squares(elastic, &squares);
         if (tets->keeping == KEEP_OFFSETS)
             find_stretch(tets, elastic, stretch);
-        open(&tets->eights[k], tets->keeping == KEEP_OFFSETS ? stretch : elastic, by_stretch, &tet);
+        open_linear(&tets->eights[k], tets->keeping == KEEP_OFFSETS ? stretch : elastic, by_stretch, &tet);
         add_blocks(tets, &tets->eights[k], &tet, &squares, parts, blocks);
     }
 }

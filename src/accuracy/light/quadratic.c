@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/light/quadratic.h"
 
-#include "accuracy/light/light_data.h"
 #include "core/kernel.h"
 #include "element/quadrature.h"
 #include "element/strain_batch.h"
@@ -89,7 +88,7 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
 
 /* --- forces of eight tets --- */
 
-static inline void open(const Eights *eights, const Kept *bend, Straight *tet)
+static inline void open_straight(const Eights *eights, const Kept *bend, Straight *tet)
 {
     tet->volume = eights->volume;
     memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
@@ -165,7 +164,7 @@ static inline void find_eight(const OstLightTets *tets, size_t k, const float *f
     const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
     Eight strain[PRODUCTS][6], moment[PRODUCTS][6];
     Straight tet;
-    open(eights, tets->bend + BENDS * k, &tet);
+    open_straight(eights, tets->bend + BENDS * k, &tet);
     read_nodes(tets, eights, moved);
     read_functions(tets, eights, functions, turns, w);
     memset(strain, 0, sizeof strain);
