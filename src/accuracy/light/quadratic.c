@@ -32,15 +32,21 @@ static inline void read_nodes(const OstLightTets *tets, const Eights *eights, Ei
         transpose(row[a], moved[a]);
 }
 
+/* Those on vertex 0 are what balances the others: in single precision they would not, and the whole body would move. */
 static inline void add_to_nodes(OstLightTets *tets, const Eights *eights, Eight at_nodes[NODES][3])
 {
-    for (int a = 0; a < NODES; a++) {
-        Four row[WIDTH];
-        transpose_back(at_nodes[a], row);
-        for (int slot = 0; slot < WIDTH; slot++) {
-            const OstLocal node = ost_mesh_nodes_of(tets->mesh, eights->tet[slot])[a];
-            *(Wide *)(tets->force + 4 * (size_t)node) += __builtin_convertvector(row[slot], Wide);
+    Four row[NODES][WIDTH];
+    for (int a = 1; a < NODES; a++)
+        transpose_back(at_nodes[a], row[a]);
+    for (int slot = 0; slot < WIDTH; slot++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(tets->mesh, eights->tet[slot]);
+        Wide sum = {0.0};
+        for (int a = 1; a < NODES; a++) {
+            const Wide force = __builtin_convertvector(row[a][slot], Wide);
+            *(Wide *)(tets->force + 4 * (size_t)nodes[a]) += force;
+            sum += force;
         }
+        *(Wide *)(tets->force + 4 * (size_t)nodes[0]) -= sum;
     }
 }
 
