@@ -503,14 +503,14 @@ static inline void add_to_block(const OstLightTets *tets, const Eights *eights, 
     }
 }
 
-/* The block of a function of an edge is volume × `own` times those of L_a and L_b, and `both` times that of L_a + L_b;
- * the last is that of the opposite edge, too, as all gradients add up to zero. That of a face, therefore, is the same
- * on all four: volume × `face` times the sum of all vertices'. */
+/* The block of a function of an edge is volume × `own` times the sum of those of L_a and L_b and `both` times that of
+ * L_a + L_b; the last is that of the opposite edge, too, as all gradients add up to zero. That of a face, therefore, is
+ * the same on all four: volume × `face` times the sum of all vertices'. */
 typedef struct Parts {
     float own, both, face;
 } Parts;
-static const Parts parts_of_linear = {0.8F, 0.8F, 0.0F},
-                   parts_of_quadratic = {768.0F / 840.0F, 256.0F / 840.0F, 1458.0F / 840.0F};
+static const Parts parts_of_linear = {0.8F, 1.0F, 0.0F},
+                   parts_of_quadratic = {768.0F / 840.0F, 1.0F / 3.0F, 1458.0F / 840.0F};
 
 static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet, const Squares *squares,
                               const Parts *parts, float *blocks)
@@ -526,12 +526,13 @@ static inline void add_blocks(const OstLightTets *tets, const Eights *eights, co
         }
         find_block(tet, squares, g, along, of_sum[v - 1]);
     }
+    const Eight weight = parts->own * tet->volume;
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         const int with0 = a == 0 ? b : b == 0 ? a : 6 - a - b; /* the pair with vertex 0: this one, or its opposite */
         Eight block[6];
         for (int p = 0; p < 6; p++)
-            block[p] = tet->volume * (parts->own * (own[a][p] + own[b][p]) + parts->both * of_sum[with0 - 1][p]);
+            block[p] = weight * (own[a][p] + own[b][p] + parts->both * of_sum[with0 - 1][p]);
         add_to_block(tets, eights, e, block, blocks);
     }
     if (parts->face == 0.0F)
