@@ -32,9 +32,9 @@ typedef struct Cells {
     int straight;
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
-    const OstEvaluated *evaluated;          /* at the rule's points; NULL: not kept */
-    OstSimd stretch[OST_MAX_POINTS + 1][6]; /* where axes are known by their line alone: elasticity.stretch_at */
-    const double *turned_by;                /* as the operator's; then its displacements */
+    const OstEvaluated *evaluated;      /* at the rule's points; NULL: not kept */
+    OstSimd stretch[OST_MAX_POINTS][6]; /* where axes are known by their line alone: elasticity.stretch_at */
+    const double *turned_by;            /* as the operator's; then its displacements */
     OstSimd base[NUMBERS];
 } Cells;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
 #include "accuracy/search.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -227,7 +227,6 @@ OstStatus ost_search_take(Search *search, const double *left)
     return OST_SUCCESS;
 }
 
-/* r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u)
 {
     OstSteps *steps = &search->steps;

@@ -158,19 +158,8 @@ static inline void forces_of_varying(const Linear *tet, const OstElasticity *ela
     }
 }
 
-/* Forces of A at the centroid. */
-static inline void find_centroid_forces(const Linear *tet, const OstElasticity *elasticity, int centroid,
-                                        const OstSimd slope[9], OstSimd *at_nodes)
-{
-    OstSimd stress[6];
-    find_stress_about_line(elasticity, centroid, slope, stress);
-    for (int p = 0; p < 6; p++)
-        stress[p] *= tet->volume;
-    find_own_forces(tet, stress, at_nodes);
-}
-
 OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
-                                       const OstSimd *u, OstSimd *at_nodes, OstSimd *at_functions, OstSimd *at_centroid)
+                                       const OstSimd *u, OstSimd *at_nodes, OstSimd *at_functions)
 {
     OstSimd slope[9];
     Linear tet;
@@ -180,8 +169,6 @@ OST_KERNEL void ost_linear_tets_forces(const OstSimd *x, const OstElasticity *el
         forces_of_uniform(&tet, elasticity, slope, at_nodes, at_functions);
     else
         forces_of_varying(&tet, elasticity, rule, slope, at_nodes, at_functions);
-    if (at_centroid)
-        find_centroid_forces(&tet, elasticity, rule->count, slope, at_centroid);
 }
 
 /* --- the functions' own blocks --- */

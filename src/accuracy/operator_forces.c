@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/operator.h"
 
-#include "accuracy/blocks.h"
 #include "accuracy/cells.h"
+#include "accuracy/complement/blocks.h"
 #include "accuracy/linear_tets.h"
 #include "accuracy/straight.h"
 #include "assembly/batch.h"
@@ -175,59 +175,40 @@ static int is_plain(const Cells *cells, OstFormulation formulation)
            !(cells->state && (elasticity->mixed || elasticity->eigenstrained));
 }
 
-/* Forces of a batch by the quickest way; w and at_centroid (accuracy/linear_tets.h) may be NULL. */
+/* Are the tets curved, and is that all that they are? */
+static int is_curved(const Cells *cells, OstFormulation formulation)
+{
+    return cells->nodes == 10 && !cells->straight && is_plain(cells, formulation);
+}
+
+/* Forces of a batch by the quickest way; w may be NULL. */
 static void find_forces(const Cells *cells, const OstElement *element, OstFormulation formulation, const OstSimd *u,
-                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions, OstSimd *at_centroid)
+                        const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
     if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
-        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions, at_centroid);
+        ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
     else
         forces_of(cells, element, formulation, u, w, at_nodes, at_functions);
 }
 
-/* The part of the work of a batch's nodal forces that is this rank's. */
-static double work_of(const Cells *cells, OstLocal owned_tets, const OstSimd *moved, const OstSimd *at_nodes)
+/* The work of a batch's nodal forces. */
+static inline void find_work(const Cells *cells, const OstSimd *moved, const OstSimd *at_nodes, OstSimd *work)
 {
-    OstSimd work = {0};
-    double sum = 0.0;
+    *work = (OstSimd){0};
     for (int n = 0; n < 3 * cells->nodes; n++)
-        work += (moved[n] - moved[n % 3]) * at_nodes[n];
+        *work += (moved[n] - moved[n % 3]) * at_nodes[n];
+}
+
+/* The part of a batch's work that is this rank's. */
+static double own_work(const Cells *cells, OstLocal owned_tets, const OstSimd *work)
+{
+    double sum = 0.0;
     for (int slot = 0; slot < cells->batch.count; slot++)
-        sum += cells->batch.tet[slot] < owned_tets ? work[slot] : 0.0;
+        sum += cells->batch.tet[slot] < owned_tets ? (*work)[slot] : 0.0;
     return sum;
-}
-
-/* The forces of linear theory by the elements' own quadrature. */
-typedef enum { OWN_ALIKE, OWN_ABOUT_LINE, OWN_GATHERED } OwnForces;
-
-/* How they are found: not at all where both integrate without error. */
-static OwnForces own_forces_of(const Cells *cells)
-{
-    if (cells->straight && cells->batch.elasticity.points == 1)
-        return OWN_ALIKE;
-    return cells->nodes == 4 && cells->batch.elasticity.stretch_at ? OWN_ABOUT_LINE : OWN_GATHERED;
-}
-
-/* The tets with C at the elements' own points. */
-static void gather_own(const OstOperator *operator, const Cells * cells, const OstElement *element, OstBatch *own)
-{
-    ost_elasticity_clear(&own->elasticity);
-    own->elasticity.eigen_share = cells->batch.elasticity.eigen_share;
-    ost_batch_gather(own, element, operator->problem->mesh, operator->problem->field, cells->batch.count,
-                     cells->batch.tet);
-}
-
-/* A tet's nodes have an order of their own there. */
-static void add_own(const OstOperator *operator, const Cells * cells, const OstElement *element, const OstBatch *own,
-                    const double *u, double *force)
-{
-    OstSimd moved[NUMBERS], at_nodes[NUMBERS];
-    ost_batch_gather_vectors(own, cells->nodes, u, moved);
-    element->force(own->x, &own->elasticity, moved, at_nodes);
-    add_to_nodes(own, cells->nodes, operator->problem->mesh->owned_nodes, at_nodes, force);
 }
 
 /* What the forces of a state are wanted for. */
@@ -235,37 +216,35 @@ typedef struct Sum {
     const OstOperator *operator;
     OstFormulation formulation;
     double eigen_share;
-    int missing; /* on nodes: what the elements' own quadrature has more, by linear theory */
     double work; /* found: of the nodal forces on u */
     const double *u;
-    double *force, *of_functions;
+    double *force; /* on nodes; NULL: not wanted */
+    double *of_functions;
 } Sum;
 
 /* Of a batch, which is gathered. */
-static void add_state(const Cells *cells, const OstElement *element, OwnForces by, const OstBatch *own, Sum *sum)
+static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
 {
     const OstMesh *mesh = sum->operator->problem->mesh;
-    const int is_about_line = sum->missing && by == OWN_ABOUT_LINE;
-    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], own_at_nodes[NUMBERS] = {{0}};
+    OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], work;
     ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
-    find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions,
-                is_about_line ? own_at_nodes : NULL);
+    if (!sum->force && is_curved(cells, sum->formulation)) {
+        ost_curved_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, moved, at_functions, &work);
+    } else {
+        find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
+        find_work(cells, moved, at_nodes, &work);
+    }
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
-    sum->work += work_of(cells, mesh->owned_tets, moved, at_nodes);
-    if (sum->missing && by == OWN_ALIKE)
-        return;
-    for (int n = 0; n < 3 * cells->nodes && sum->missing; n++)
-        at_nodes[n] = own_at_nodes[n] - at_nodes[n];
-    add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
-    if (sum->missing && by == OWN_GATHERED)
-        add_own(sum->operator, cells, element, own, sum->u, sum->force);
+    sum->work += own_work(cells, mesh->owned_tets, &work);
+    if (sum->force)
+        add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
 }
 
-/* Keeps the points of curved tets, which all displacements of a visit share. */
-static void keep_points(const OstElement *element, OstEvaluated at[OST_MAX_POINTS], Cells *cells)
+/* Keeps the points of tets without a quicker way, which all displacements of a visit share. */
+static void keep_points(const OstElement *element, int keeps, OstEvaluated at[OST_MAX_POINTS], Cells *cells)
 {
-    cells->evaluated = cells->straight ? NULL : at;
-    for (int q = 0; q < cells->rule->count && !cells->straight; q++)
+    cells->evaluated = keeps ? at : NULL;
+    for (int q = 0; q < cells->rule->count && keeps; q++)
         evaluate(cells, element, q, &at[q].point, at[q].gradient);
 }
 
@@ -276,7 +255,6 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     const OstMesh *mesh = one->operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
     OstEvaluated at[OST_MAX_POINTS];
-    OstBatch own;
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
@@ -284,12 +262,9 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
                                            !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
-        keep_points(element, at, &cells);
-        const OwnForces by = own_forces_of(&cells);
-        if (one->missing && by == OWN_GATHERED)
-            gather_own(one->operator, & cells, element, &own);
+        keep_points(element, !cells.straight && !(!one->force && is_curved(&cells, one->formulation)), at, &cells);
         for (int k = 0; k < count; k++)
-            add_state(&cells, element, by, &own, sum[k]);
+            add_state(&cells, element, sum[k]);
     }
     return OST_SUCCESS;
 }
@@ -299,10 +274,11 @@ static void sum_forces(Sum *sum)
     const OstComplement *complement = sum->operator->complement;
     const OstMesh *mesh = sum->operator->problem->mesh;
     void *const alone = sum;
-    memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
+    if (sum->force)
+        memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
     memset(sum->of_functions, 0, 3 * (size_t)complement->count * sizeof *sum->of_functions);
     sum->work = 0.0;
-    if (!sum->missing || ost_field_is_eigenstrained(sum->operator->problem->field))
+    if (sum->force || ost_field_is_eigenstrained(sum->operator->problem->field))
         (void)sum_states(NULL, 1, &alone);
     else
         (void)ost_together(mesh->ctx, sum_states, OST_MOST_TOGETHER, (void *)complement, sum);
@@ -336,16 +312,17 @@ OstStatus ost_operator_force(const OstOperator *operator, double t, const double
     Sum sum = {.operator= & unturned,
                .formulation = problem->formulation,
                .eigen_share = ost_problem_eigen_share(problem, t),
-               .missing = is_linear,
                .u = u,
-               .force = missing,
+               .force = is_linear ? NULL : missing,
                .of_functions = of_functions};
     sum_forces(&sum);
     const int tells = is_linear && !problem->pressures && !problem->supports->spring &&
                       (sum.eigen_share == 0.0 || !ost_field_is_eigenstrained(problem->field));
     *energy = tells ? 0.5 * sum.work : NAN;
-    if (is_linear)
+    if (is_linear) {
+        memset(missing, 0, numbers * sizeof *missing);
         return OST_SUCCESS;
+    }
     OST_TRY(OST_NEW(problem->ctx, &own, numbers));
     OstStatus status =
         ost_internal_force_of(problem->mesh, problem->field, problem->formulation, sum.eigen_share, u, own, NULL);
@@ -382,7 +359,7 @@ static void add_product(const Cells *cells, const OstElement *element, double fa
     OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
     ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
     gather_functions(cells, product->w, more);
-    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
+    find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
     for (int n = 0; n < 3 * cells->nodes; n++)
         at_nodes[n] *= factor;
     for (int n = 0; n < 3 * cells->functions; n++)
@@ -445,7 +422,7 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
         gather(operator, first, mesh->owned_tets, &cells);
         ost_batch_gather_vectors(&cells.batch, cells.nodes, u, moved);
         gather_functions(&cells, w, more);
-        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions, NULL);
+        find_forces(&cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
         for (int n = 0; n < 3 * cells.nodes; n++)
             sum += (moved[n] - moved[n % 3]) * at_nodes[n];
         for (int n = 0; n < 3 * cells.functions; n++)

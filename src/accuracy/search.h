@@ -42,7 +42,8 @@ OstStatus ost_search_move(OstEstimate *estimate, const double *u);
 /* Collective. Close its steps also after a failure. */
 OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search);
 
-/* Collective. r = f - A u on the functions; on the rows, by how much the elements' own quadrature differs. */
+/* Collective. r = f - A u on the functions; on the rows, where rotations are large, by how much the elements' own
+ * quadrature differs. */
 OstStatus ost_search_residual(Search *search, double t, const double *u);
 
 /* Collective. r, from forces left on the functions, and those in r.rows. */

@@ -11,7 +11,7 @@
  * that single precision holds them whatever the units of the case. */
 typedef struct OstSteps {
     const OstOperator *stiffness;
-    const float *factor; /* of the functions' blocks (accuracy/blocks.h) */
+    const float *factor; /* of the functions' blocks (accuracy/complement/blocks.h) */
     OstSolver *solver;
     size_t rows, functions; /* numbers of the rows, and the functions */
     double size;

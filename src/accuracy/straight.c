@@ -4,26 +4,15 @@
 #include "core/kernel.h"
 #include "element/shape_functions.h"
 #include "element/strain_batch.h"
-#include "element/tets.h"
-
-#include <string.h>
-
-/* Polynomials of degree 2 have a coefficient for each product of two barycentric coordinates: L_a L_a, then L_a L_b of
- * each edge as ost_tet_edge. */
-enum { VERTICES = 4, EDGES = 6, PRODUCTS = VERTICES + EDGES };
-
-static const int face_edge[4][3] = {{5, 4, 1}, {5, 2, 3}, {4, 3, 0}, {1, 0, 2}}; /* opposite to the face's vertices */
+typedef OstSimd Number;
+typedef double Scalar;
+#include "accuracy/light/straight_kernel.h"
 
 int ost_straight_all(const OstSimd *x)
 {
     static const OstElasticity uniform;
     return ost_element_of(10)->uniform(x, &uniform) == (1U << OST_SIMD_WIDTH) - 1U;
 }
-
-typedef struct Straight {
-    OstSimd gradient[VERTICES][3], volume;
-    OstSimd bend[EDGES][3]; /* of mid-edge nodes, from the middle of the edge's ends */
-} Straight;
 
 static inline void open(const OstSimd *x, Straight *tet)
 {
@@ -35,101 +24,6 @@ static inline void open(const OstSimd *x, Straight *tet)
         for (int i = 0; i < 3; i++)
             tet->bend[e][i] =
                 x[3 * (4 + e) + i] - 0.5 * (x[3 * ost_tet_edge[e][0] + i] + x[3 * ost_tet_edge[e][1] + i]);
-}
-
-/* strain += factor × that of a displacement v f, g the gradient of f */
-static inline void add_strain(double factor, const OstSimd v[3], const OstSimd g[3], OstSimd strain[6])
-{
-    for (int i = 0; i < 3; i++) {
-        const int next = (i + 1) % 3;
-        strain[i] += factor * v[i] * g[i];
-        strain[3 + i] += factor * (v[i] * g[next] + v[next] * g[i]);
-    }
-}
-
-static inline void add_force(double factor, const OstSimd g[3], const OstSimd stress[6], OstSimd force[3])
-{
-    OstSimd part[3];
-    ost_force_of_stress(g, stress, part);
-    for (int i = 0; i < 3; i++)
-        force[i] += factor * part[i];
-}
-
-/* The strain of the elements' own displacement: u = sum of u_a L_a + h_ab 4 L_a L_b, linear in L. What the slope
- * between the vertices explains of a mid-edge node that lies off its edge does not count: so a linear u has a uniform
- * strain. */
-static inline void add_own_strain(const Straight *tet, const OstSimd *u, OstSimd strain[PRODUCTS][6])
-{
-    OstSimd at_vertex[VERTICES][6], mean[6] = {{0}};
-    OstSimd slope[3][3] = {{{0}}};
-    for (int a = 0; a < VERTICES; a++)
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                slope[i][j] += u[3 * a + i] * tet->gradient[a][j];
-    ost_strain_of_slope(slope, mean);
-    for (int a = 0; a < VERTICES; a++)
-        memcpy(at_vertex[a], mean, sizeof mean);
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd h[3];
-        for (int i = 0; i < 3; i++)
-            h[i] = u[3 * (4 + e) + i] - 0.5 * (u[3 * a + i] + u[3 * b + i]) - slope[i][0] * tet->bend[e][0] -
-                   slope[i][1] * tet->bend[e][1] - slope[i][2] * tet->bend[e][2];
-        add_strain(4.0, h, tet->gradient[b], at_vertex[a]);
-        add_strain(4.0, h, tet->gradient[a], at_vertex[b]);
-    }
-    for (int p = 0; p < 6; p++) { /* times the sum of all L, which is 1 */
-        for (int a = 0; a < VERTICES; a++)
-            strain[a][p] += at_vertex[a][p];
-        for (int e = 0; e < EDGES; e++)
-            strain[4 + e][p] += at_vertex[ost_tet_edge[e][0]][p] + at_vertex[ost_tet_edge[e][1]][p];
-    }
-}
-
-/* That of the functions: 8 L_a L_b (L_b - L_a), and 27 L_a L_b L_c. */
-static inline void add_surplus_strain(const Straight *tet, const OstSimd *w, OstSimd strain[PRODUCTS][6])
-{
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd by_a[6] = {{0}}, by_b[6] = {{0}};
-        add_strain(8.0, w + 3 * e, tet->gradient[a], by_a);
-        add_strain(8.0, w + 3 * e, tet->gradient[b], by_b);
-        for (int p = 0; p < 6; p++) {
-            strain[a][p] -= by_b[p];
-            strain[b][p] += by_a[p];
-            strain[4 + e][p] += 2.0 * (by_b[p] - by_a[p]);
-        }
-    }
-    for (int f = 0; f < 4; f++)
-        for (int i = 0; i < 3; i++)
-            add_strain(27.0, w + 3 * (EDGES + f), tet->gradient[ost_tet_face[f][i]], strain[4 + face_edge[f][i]]);
-}
-
-/* moment = integrals of the stress times each product, of a uniform C. Integrals of four coordinates are those of
- * L_a^i L_b^j .. = i! j! .. volume / 840. */
-static inline void integrate(const Straight *tet, const OstSimd *c, OstSimd strain[PRODUCTS][6],
-                             OstSimd moment[PRODUCTS][6])
-{
-    OstSimd stress[PRODUCTS][6];
-    const OstSimd unit = tet->volume / 840.0;
-    for (int k = 0; k < PRODUCTS; k++)
-        ost_simd_stress(c, strain[k], stress[k]);
-    for (int p = 0; p < 6; p++) {
-        const OstSimd squares = stress[0][p] + stress[1][p] + stress[2][p] + stress[3][p];
-        OstSimd at[VERTICES] = {{0}}, edges = {0};
-        for (int e = 0; e < EDGES; e++) {
-            at[ost_tet_edge[e][0]] += stress[4 + e][p];
-            at[ost_tet_edge[e][1]] += stress[4 + e][p];
-            edges += stress[4 + e][p];
-        }
-        for (int a = 0; a < VERTICES; a++)
-            moment[a][p] = unit * (20.0 * stress[a][p] + 4.0 * (squares + at[a]) + 2.0 * edges);
-        for (int e = 0; e < EDGES; e++) {
-            const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-            moment[4 + e][p] =
-                unit * (4.0 * (stress[a][p] + stress[b][p]) + 2.0 * squares + stress[4 + e][p] + at[a] + at[b] + edges);
-        }
-    }
 }
 
 static inline void find_stretch(int nodes, const OstSimd *x, const OstElasticity *elasticity, const double at[4],
@@ -150,11 +44,10 @@ void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, con
 }
 
 OST_KERNEL void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity,
-                                       const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS + 1][6])
+                                       const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS][6])
 {
     for (int q = 0; q < rule->count; q++)
         find_stretch(nodes, x, elasticity, rule->point[q].at, tensor[q]);
-    find_stretch(nodes, x, elasticity, ost_tet_degree1.point[0].at, tensor[rule->count]);
 }
 
 /* Of C at point q. */
@@ -163,7 +56,7 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
 {
     OstSimd tensor[6];
     if (!elasticity->about_line) {
-        ost_simd_stress(elasticity->c[q], strain, stress);
+        ost_simd_stress(elasticity->c[ost_elasticity_at(elasticity, q)], strain, stress);
         return;
     }
     if (!elasticity->stretch_at)
@@ -171,80 +64,30 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
     ost_stretch_stress(elasticity->stretch_at ? elasticity->stretch_at[q] : tensor, elasticity->shear, strain, stress);
 }
 
-/* The same by quadrature, of a C that varies. */
+/* moment = integrals of the stress times each product by quadrature, of a C that varies. */
 static inline void integrate_points(const OstSimd *x, const Straight *tet, const OstElasticity *elasticity,
                                     const OstQuadrature *rule, OstSimd strain[PRODUCTS][6], OstSimd moment[PRODUCTS][6])
 {
     memset(moment, 0, PRODUCTS * sizeof *moment);
     for (int q = 0; q < rule->count; q++) {
-        const double *at = rule->point[q].at;
-        OstSimd here[6] = {{0}}, stress[6];
+        const OstSimd weight = rule->point[q].weight * tet->volume;
+        OstSimd here[6], stress[6];
         double product[PRODUCTS];
-        for (int a = 0; a < VERTICES; a++)
-            product[a] = at[a] * at[a];
-        for (int e = 0; e < EDGES; e++)
-            product[4 + e] = at[ost_tet_edge[e][0]] * at[ost_tet_edge[e][1]];
-        for (int k = 0; k < PRODUCTS; k++)
-            for (int p = 0; p < 6; p++)
-                here[p] += product[k] * strain[k][p];
+        find_products(rule->point[q].at, product);
+        find_strain_at(product, strain, here);
         find_stress(x, elasticity, rule, q, here, stress);
-        for (int p = 0; p < 6; p++) {
-            const OstSimd weighted = rule->point[q].weight * tet->volume * stress[p];
-            for (int k = 0; k < PRODUCTS; k++)
-                moment[k][p] += product[k] * weighted;
-        }
+        add_moments(product, &weight, stress, moment);
     }
 }
 
-static inline void find_own_forces(const Straight *tet, OstSimd moment[PRODUCTS][6], OstSimd *at_nodes)
+/* Of a uniform C. */
+static inline void integrate_uniform(const Straight *tet, const OstSimd *c, OstSimd strain[PRODUCTS][6],
+                                     OstSimd moment[PRODUCTS][6])
 {
-    OstSimd of_vertex[VERTICES][6], sum[6], of_slope[3][3] = {{{0}}};
-    memcpy(of_vertex, moment, sizeof of_vertex);
-    for (int p = 0; p < 6; p++) {
-        for (int e = 0; e < EDGES; e++) {
-            of_vertex[ost_tet_edge[e][0]][p] += moment[4 + e][p];
-            of_vertex[ost_tet_edge[e][1]][p] += moment[4 + e][p];
-        }
-        sum[p] = of_vertex[0][p] + of_vertex[1][p] + of_vertex[2][p] + of_vertex[3][p];
-    }
-    for (int a = 0; a < VERTICES; a++)
-        ost_force_of_stress(tet->gradient[a], sum, at_nodes + 3 * a);
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd *force = at_nodes + 3 * (4 + e);
-        force[0] = force[1] = force[2] = (OstSimd){0};
-        add_force(4.0, tet->gradient[b], of_vertex[a], force);
-        add_force(4.0, tet->gradient[a], of_vertex[b], force);
-        for (int i = 0; i < 3; i++) {
-            at_nodes[3 * a + i] -= 0.5 * force[i];
-            at_nodes[3 * b + i] -= 0.5 * force[i];
-            for (int j = 0; j < 3; j++)
-                of_slope[i][j] -= force[i] * tet->bend[e][j];
-        }
-    }
-    for (int a = 0; a < VERTICES; a++)
-        for (int i = 0; i < 3; i++)
-            at_nodes[3 * a + i] += of_slope[i][0] * tet->gradient[a][0] + of_slope[i][1] * tet->gradient[a][1] +
-                                   of_slope[i][2] * tet->gradient[a][2];
-}
-
-static inline void find_surplus_forces(const Straight *tet, OstSimd moment[PRODUCTS][6], OstSimd *at_functions)
-{
-    memset(at_functions, 0, 3 * (EDGES + 4) * sizeof *at_functions);
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        OstSimd by_a[6], by_b[6];
-        for (int p = 0; p < 6; p++) {
-            by_a[p] = moment[b][p] - 2.0 * moment[4 + e][p];
-            by_b[p] = 2.0 * moment[4 + e][p] - moment[a][p];
-        }
-        add_force(8.0, tet->gradient[a], by_a, at_functions + 3 * e);
-        add_force(8.0, tet->gradient[b], by_b, at_functions + 3 * e);
-    }
-    for (int f = 0; f < 4; f++)
-        for (int i = 0; i < 3; i++)
-            add_force(27.0, tet->gradient[ost_tet_face[f][i]], moment[4 + face_edge[f][i]],
-                      at_functions + 3 * (EDGES + f));
+    OstSimd stress[PRODUCTS][6];
+    for (int k = 0; k < PRODUCTS; k++)
+        ost_simd_stress(c, strain[k], stress[k]);
+    integrate_stress(tet, stress, moment);
 }
 
 OST_KERNEL void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
@@ -258,11 +101,132 @@ OST_KERNEL void ost_straight_forces(const OstSimd *x, const OstElasticity *elast
     if (w)
         add_surplus_strain(&tet, w, strain);
     if (elasticity->points == 1)
-        integrate(&tet, elasticity->c[0], strain, moment);
+        integrate_uniform(&tet, elasticity->c[0], strain, moment);
     else
         integrate_points(x, &tet, elasticity, rule, strain, moment);
     find_own_forces(&tet, moment, at_nodes);
     find_surplus_forces(&tet, moment, at_functions);
+}
+
+/* --- curved tets --- */
+
+/* How a quadratic function of the nodes (3 numbers each) grows with L_1 to L_3, L_0 taking what they leave: at the
+ * vertices, between which it is linear. */
+static inline void find_growth(const OstSimd *of_nodes, OstSimd growth[VERTICES][9])
+{
+    OstSimd along[VERTICES][VERTICES][3]; /* at a vertex, with a coordinate */
+    for (int i = 0; i < 3; i++) {
+        for (int v = 0; v < VERTICES; v++)
+            along[v][v][i] = 3.0 * of_nodes[3 * v + i];
+        for (int e = 0; e < EDGES; e++) {
+            const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+            along[a][b][i] = 4.0 * of_nodes[3 * (4 + e) + i] - of_nodes[3 * b + i];
+            along[b][a][i] = 4.0 * of_nodes[3 * (4 + e) + i] - of_nodes[3 * a + i];
+        }
+    }
+    for (int v = 0; v < VERTICES; v++)
+        for (int i = 0; i < 3; i++)
+            for (int m = 1; m < VERTICES; m++)
+                growth[v][3 * i + m - 1] = along[v][m][i] - along[v][0][i];
+}
+
+static inline void find_growth_at(OstSimd growth[VERTICES][9], const double at[VERTICES], OstSimd here[9])
+{
+    for (int n = 0; n < 9; n++)
+        here[n] = at[0] * growth[0][n] + at[1] * growth[1][n] + at[2] * growth[2][n] + at[3] * growth[3][n];
+}
+
+/* The inverse of J, and its determinant's absolute value. */
+static inline void invert(const OstSimd j[9], OstSimd inverse[9], OstSimd *size)
+{
+    OstSimd columns[9];
+    for (int m = 0; m < 3; m++) {
+        const int b = (m + 1) % 3, c = (m + 2) % 3;
+        for (int i = 0; i < 3; i++) {
+            const int k = (i + 1) % 3, l = (i + 2) % 3;
+            columns[3 * m + i] = j[3 * k + b] * j[3 * l + c] - j[3 * l + b] * j[3 * k + c];
+        }
+    }
+    const OstSimd determinant = j[0] * columns[0] + j[3] * columns[1] + j[6] * columns[2], factor = 1.0 / determinant;
+    for (int n = 0; n < 9; n++)
+        inverse[n] = factor * columns[n];
+    *size = determinant;
+    ost_simd_absolute(size);
+}
+
+/* Of the slope G J^-1, with G how u grows. */
+static inline void find_point_strain(const OstSimd inverse[9], const OstSimd growth[9], OstSimd strain[6])
+{
+    OstSimd slope[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            slope[i][k] =
+                growth[3 * i] * inverse[k] + growth[3 * i + 1] * inverse[3 + k] + growth[3 * i + 2] * inverse[6 + k];
+    ost_strain_of_slope(slope, strain);
+}
+
+/* How functions grow with coordinates are products of two of these: of the stress, times J^-1, their moments are all
+ * that forces need. */
+static inline void add_stress_moments(const double product[PRODUCTS], const OstSimd inverse[9], const OstSimd stress[6],
+                                      OstSimd moment[PRODUCTS][9])
+{
+    for (int m = 0; m < 3; m++) {
+        OstSimd along[3];
+        ost_force_of_stress(inverse + 3 * m, stress, along);
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < PRODUCTS; k++)
+                moment[k][3 * m + i] += product[k] * along[i];
+    }
+}
+
+/* force += factor × a product's moment along coordinate v */
+static inline void add_moment(double factor, const OstSimd moment[9], int v, OstSimd force[3])
+{
+    for (int i = 0; i < 3; i++)
+        force[i] += v > 0 ? factor * moment[3 * (v - 1) + i] : -factor * (moment[i] + moment[3 + i] + moment[6 + i]);
+}
+
+/* The functions are 8 L_a L_b (L_b - L_a), and 27 L_a L_b L_c. */
+static inline void find_functions_forces(OstSimd moment[PRODUCTS][9], OstSimd *at_functions)
+{
+    memset(at_functions, 0, 3 * (EDGES + 4) * sizeof *at_functions);
+    for (int e = 0; e < EDGES; e++) {
+        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+        add_moment(8.0, moment[b], a, at_functions + 3 * e);
+        add_moment(-16.0, moment[4 + e], a, at_functions + 3 * e);
+        add_moment(16.0, moment[4 + e], b, at_functions + 3 * e);
+        add_moment(-8.0, moment[a], b, at_functions + 3 * e);
+    }
+    for (int f = 0; f < 4; f++)
+        for (int i = 0; i < 3; i++)
+            add_moment(27.0, moment[4 + face_edge[f][i]], ost_tet_face[f][i], at_functions + 3 * (EDGES + f));
+}
+
+OST_KERNEL void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                  const OstSimd *u, OstSimd *at_functions, OstSimd *work)
+{
+    OstSimd of_x[VERTICES][9], of_u[VERTICES][9], moment[PRODUCTS][9];
+    find_growth(x, of_x);
+    find_growth(u, of_u);
+    memset(moment, 0, sizeof moment);
+    *work = (OstSimd){0};
+    for (int q = 0; q < rule->count; q++) {
+        const OstQuadraturePoint *point = &rule->point[q];
+        OstSimd j[9], growth[9], inverse[9], volume, strain[6], stress[6];
+        double product[PRODUCTS];
+        find_growth_at(of_x, point->at, j);
+        find_growth_at(of_u, point->at, growth);
+        invert(j, inverse, &volume);
+        find_point_strain(inverse, growth, strain);
+        find_stress(x, elasticity, rule, q, strain, stress);
+        for (int p = 0; p < 6; p++) {
+            stress[p] *= (point->weight / 6.0) * volume;
+            *work += stress[p] * strain[p];
+        }
+        find_products(point->at, product);
+        add_stress_moments(product, inverse, stress, moment);
+    }
+    find_functions_forces(moment, at_functions);
 }
 
 /* --- the functions' own blocks --- */

@@ -16,13 +16,18 @@ int ost_straight_all(const OstSimd *x);
 void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
                          const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions);
 
+/* Local. Forces of a displacement u of the nodes on the functions, and the work of all its forces on it, in the true
+ * shape of curved tets. */
+void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
+                       OstSimd *at_functions, OstSimd *work);
+
 /* Local. The stretch tensor at a point of the tets, which may be curved, where only the axes' line is known
  * (elasticity->about_line). */
 void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6]);
 
-/* Local. The same of linear or quadratic tets at the points of a rule, and then at the centroid. */
+/* Local. The same of linear or quadratic tets at the points of a rule. */
 void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
-                            OstSimd tensor[OST_MAX_POINTS + 1][6]);
+                            OstSimd tensor[OST_MAX_POINTS][6]);
 
 /* Local. The functions' own 3×3 blocks of the stiffness with a uniform C. */
 void ost_straight_blocks(const OstSimd *x, const OstElasticity *elasticity, OstSimd block[OST_MAX_FUNCTIONS][9]);

@@ -42,7 +42,7 @@ typedef struct OstElasticity {
     OstSimd origin[3], axis[3];    /* four times a point of the cylinder's axis; its direction */
     OstSimd about_axis[6], radial; /* A = about_axis + radial d d' / d'd, d the position's offset from the axis */
 
-    /* If about_line: A at the points of a rule, and behind them at the centroid, where the caller keeps it; or NULL */
+    /* If about_line: A at the points of a rule, where the caller keeps it; or NULL */
     const OstSimd (*stretch_at)[6];
 
     OstSimd c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];

@@ -220,11 +220,31 @@ static void curved_tets_know_rotations(void **state)
     assert_near(sum, zero, 6);
 }
 
+/* Forces on the functions, and their work, are those of the true shape. */
+static void curved_tets_are_integrated_by_the_same_rule(void **state)
+{
+    unsigned seed = 23U;
+    OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], forces[3 * (NODES + FUNCTIONS)];
+    OstSimd at_functions[3 * FUNCTIONS], work, expected = {0}, block[FUNCTIONS][9];
+    OstElasticity elasticity;
+    make(&seed, 0.05, x, &elasticity);
+    fill(&seed, 3 * NODES, u);
+    memset(w, 0, sizeof w);
+    assert_false(ost_straight_all(x));
+    ost_curved_forces(x, &elasticity, &ost_tet_degree5, u, at_functions, &work);
+    integrate(x, &elasticity, u, w, forces, block);
+    for (int n = 0; n < 3 * NODES; n++)
+        expected += u[n] * forces[n];
+    assert_near(at_functions, forces + 3 * NODES, 3 * FUNCTIONS);
+    assert_near(&work, &expected, 1);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(straight_tets_are_integrated_without_error),
     cmocka_unit_test(a_varying_stiffness_is_taken_at_the_points),
     cmocka_unit_test(axes_about_a_line_need_no_stiffness),
     cmocka_unit_test(curved_tets_know_rotations),
+    cmocka_unit_test(curved_tets_are_integrated_by_the_same_rule),
 };
 
 OST_TEST_MAIN(tests)

@@ -13,7 +13,7 @@
 
 enum { LARGEST_FACTORED = 50000 }; /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
 
-enum { HALF_DEGREE = 2 }; /* of the smoother of quadratic tets in half a cycle */
+enum { HALF_DEGREE = 1 }; /* of the smoother of quadratic tets in half a cycle */
 
 /* Bytes that the factors of a plate's columns may take, over those of the stiffness. */
 static const double of_stiffness = 2.0, little = 64e6; /* and so many at least */
@@ -236,12 +236,12 @@ static OstStatus apply_half(void *data, int count, void *const *request)
 {
     OstCycle *cycle = data;
     OstSmoother *smoother = cycle->quadratic ? cycle->quadratic->smoother : NULL;
-    if (!smoother)
-        return apply_all(cycle, 1, count, request);
-    const int degree = smoother->degree;
-    smoother->degree = degree < HALF_DEGREE ? degree : HALF_DEGREE;
-    const OstStatus status = apply_all(cycle, 0, count, request);
-    smoother->degree = degree;
+    const int degree = smoother ? smoother->degree : 0;
+    if (smoother)
+        smoother->degree = HALF_DEGREE;
+    const OstStatus status = apply_all(cycle, 1, count, request);
+    if (smoother)
+        smoother->degree = degree;
     return status;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ACCURACY_BLOCKS_H
-#define ORTHOSTAT_ACCURACY_BLOCKS_H
+#ifndef ORTHOSTAT_ACCURACY_COMPLEMENT_BLOCKS_H
+#define ORTHOSTAT_ACCURACY_COMPLEMENT_BLOCKS_H
 
 #include "accuracy/complement/complement.h"
 

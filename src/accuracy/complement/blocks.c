@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
 
 #include "core/kernel.h"
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "accuracy/light_tets.h"
+#include "accuracy/light/light_tets.h"
 
-#include "accuracy/blocks.h"
+#include "accuracy/complement/blocks.h"
+#include "accuracy/light/light_data.h"
+#include "accuracy/light/quadratic.h"
 #include "assembly/batch.h"
 #include "core/error.h"
 #include "core/kernel.h"
@@ -11,35 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 8, VERTICES = 4, EDGES = 6, HALVES = WIDTH / OST_SIMD_WIDTH };
-
-/* A number of each of eight tets; and three numbers of a node or function, which are padded to four, so that they are
- * read at once. */
-typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
-typedef float Kept __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16))); /* in memory */
-typedef float Four __attribute__((vector_size(4 * sizeof(float)), may_alias));
-typedef double Wide __attribute__((vector_size(4 * sizeof(double)), aligned(16), may_alias));
-
-/* Eight tets; those that only fill the last ones up have no volume. */
-typedef struct Eights {
-    OstLocal tet[WIDTH];
-    Kept gradient[VERTICES - 1][3], volume; /* of vertices 1 to 3 */
-} Eights;
-
-/* How C is kept: one for all, or of each eight a stretch tensor with its shear (element/elasticity.h), or C itself. */
-typedef enum { KEEP_ONE, KEEP_STRETCH, KEEP_EACH } Keeping;
-static const size_t numbers_kept[] = {[KEEP_ONE] = 0, [KEEP_STRETCH] = 7, [KEEP_EACH] = OST_ELASTICITY_COUNT};
-
-struct OstLightTets {
-    const OstMesh *mesh;
-    const OstComplement *complement;
-    size_t count; /* of eights */
-    Eights *eights;
-    Keeping keeping;
-    Kept *elastic;
-    double length, modulus; /* units in which lengths and moduli are kept; their product is that of the stiffness */
-    double *u, *force;      /* of nodes, padded */
-};
+enum { VERTICES = 4, EDGES = 6 };
 
 /* The softest part of a stress must not drown in what single precision loses of the stiffest. */
 static const double most_ratio = 1e5;
@@ -50,6 +24,7 @@ void ost_light_tets_destroy(OstLightTets **tets)
         return;
     OST_FREE((*tets)->eights);
     OST_FREE((*tets)->elastic);
+    OST_FREE((*tets)->bend);
     OST_FREE((*tets)->u);
     OST_FREE((*tets)->force);
     OST_FREE(*tets);
@@ -85,15 +60,33 @@ static int is_fit(const OstMaterialField *field, int32_t region)
 static void gather(const OstLightTets *tets, const OstMaterialField *field, size_t first, OstBatch *batch)
 {
     const OstLocal last = tets->mesh->tet_count - 1;
+    const int nodes = tets->mesh->nodes_per_tet;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const OstLocal next = (OstLocal)first + slot, tet = next < last ? next : last;
         batch->tet[slot] = tet;
-        memcpy(batch->node[slot], ost_mesh_nodes_of(tets->mesh, tet), VERTICES * sizeof(OstLocal));
+        memcpy(batch->node[slot], ost_mesh_nodes_of(tets->mesh, tet), (size_t)nodes * sizeof(OstLocal));
     }
-    ost_batch_gather_vectors(batch, VERTICES, tets->mesh->coordinates, batch->x);
+    ost_batch_gather_vectors(batch, nodes, tets->mesh->coordinates, batch->x);
     ost_elasticity_gather(&batch->elasticity, field, batch->tet, 0, NULL);
     if (batch->elasticity.about_line)
         ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
+}
+
+/* C that differs within quadratic tets is kept where the line of its axes tells it, and there is no other region. */
+static Keeping find_keeping_of_quadratic(const OstLightTets *tets, const OstMaterialField *field)
+{
+    OstBatch batch;
+    int differs = 0;
+    for (int32_t region = 0; region < field->region_count; region++)
+        differs |= field->region_varies[region] && ost_field_has_formula(field, region);
+    if (!differs)
+        return KEEP_EACH;
+    if (field->region_count > 1)
+        return KEEP_NOT;
+    ost_elasticity_clear(&batch.elasticity);
+    batch.elasticity.stretch_suffices = 1;
+    gather(tets, field, 0, &batch);
+    return batch.elasticity.about_line ? KEEP_OFFSETS : KEEP_NOT;
 }
 
 static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *field)
@@ -101,6 +94,8 @@ static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *fi
     OstBatch batch;
     if (field->region_count == 1 && !field->region_varies[0] && !field->tet_scale)
         return KEEP_ONE;
+    if (tets->mesh->nodes_per_tet == 10)
+        return find_keeping_of_quadratic(tets, field);
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.stretch_suffices = 1;
     const size_t halves = field->region_count == 1 ? 1 : HALVES * tets->count; /* a batch of one region tells of all */
@@ -118,9 +113,31 @@ static inline void put(const OstSimd *number, double unit, int half, Kept *kept)
     memcpy((float *)kept + OST_SIMD_WIDTH * half, &over_unit, sizeof over_unit);
 }
 
-static void keep_elasticity(const OstLightTets *tets, const OstElasticity *elasticity, int half, Kept *kept)
+/* How far the vertices are from the line. */
+static void keep_offsets(const OstLightTets *tets, const OstBatch *batch, int half, Kept *kept)
 {
+    const OstElasticity *elasticity = &batch->elasticity;
+    for (int v = 0; v < VERTICES; v++) {
+        OstSimd d[3], height = {0};
+        for (int i = 0; i < 3; i++) {
+            d[i] = batch->x[3 * v + i] - 0.25 * elasticity->origin[i];
+            height += d[i] * elasticity->axis[i];
+        }
+        for (int i = 0; i < 3; i++) {
+            d[i] -= height * elasticity->axis[i];
+            put(&d[i], tets->length, half, &kept[3 * v + i]);
+        }
+    }
+}
+
+static void keep_elasticity(const OstLightTets *tets, const OstBatch *batch, int half, Kept *kept)
+{
+    const OstElasticity *elasticity = &batch->elasticity;
     const OstSimd shear = (OstSimd){0} + elasticity->shear;
+    if (tets->keeping == KEEP_OFFSETS) {
+        keep_offsets(tets, batch, half, kept);
+        return;
+    }
     if (tets->keeping == KEEP_STRETCH) {
         for (int p = 0; p < 6; p++)
             put(&elasticity->stretch_tensor[p], sqrt(tets->modulus), half, &kept[p]);
@@ -131,16 +148,35 @@ static void keep_elasticity(const OstLightTets *tets, const OstElasticity *elast
         put(&elasticity->c[0][n], tets->modulus, half, &kept[n]);
 }
 
+static void keep_bend(const OstLightTets *tets, const OstSimd *x, int half, Kept *kept)
+{
+    for (int e = 0; e < EDGES; e++)
+        for (int i = 0; i < 3; i++) {
+            const OstSimd bend =
+                x[3 * (4 + e) + i] - 0.5 * (x[3 * ost_tet_edge[e][0] + i] + x[3 * ost_tet_edge[e][1] + i]);
+            put(&bend, tets->length, half, &kept[3 * e + i]);
+        }
+}
+
+static void keep_line(OstLightTets *tets, const OstElasticity *elasticity)
+{
+    const double unit = sqrt(tets->modulus);
+    for (int p = 0; p < 6; p++)
+        tets->line.about_axis[p] = (float)(elasticity->about_axis[p][0] / unit);
+    tets->line.radial = (float)(elasticity->radial[0] / unit);
+    tets->line.shear = (float)elasticity->shear;
+}
+
 static void keep(OstLightTets *tets, const OstMaterialField *field)
 {
     const double unit_of_volume = tets->length * tets->length * tets->length;
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
-    batch.elasticity.stretch_suffices = tets->keeping == KEEP_STRETCH;
+    batch.elasticity.stretch_suffices = tets->keeping == KEEP_STRETCH || tets->keeping == KEEP_OFFSETS;
     for (size_t half = 0; half < HALVES * tets->count; half++) {
-        const size_t first = OST_SIMD_WIDTH * half;
+        const size_t first = OST_SIMD_WIDTH * half, k = half / HALVES;
         const int place = (int)(half % HALVES);
-        Eights *eights = &tets->eights[half / HALVES];
+        Eights *eights = &tets->eights[k];
         OstPoint point;
         gather(tets, field, first, &batch);
         ost_element_of(VERTICES)->evaluate(batch.x, &ost_tet_degree1.point[0], &point);
@@ -152,19 +188,24 @@ static void keep(OstLightTets *tets, const OstMaterialField *field)
         for (int n = 0; n < 9; n++)
             put(&point.gradient[1 + n / 3][n % 3], 1.0 / tets->length, place, &eights->gradient[n / 3][n % 3]);
         put(&point.volume, unit_of_volume, place, &eights->volume);
-        keep_elasticity(tets, &batch.elasticity, place, tets->elastic + numbers_kept[tets->keeping] * (half / HALVES));
+        if (tets->keeping != KEEP_ONE || k == 0)
+            keep_elasticity(tets, &batch, place, tets->elastic + numbers_kept[tets->keeping] * k);
+        if (tets->bend)
+            keep_bend(tets, batch.x, place, tets->bend + BENDS * k);
     }
+    if (tets->keeping == KEEP_OFFSETS)
+        keep_line(tets, &batch.elasticity);
 }
 
 static OstStatus fill(OstLightTets *tets, const OstMaterialField *field)
 {
     const OstMesh *mesh = tets->mesh;
     OstContext *ctx = mesh->ctx;
-    tets->count = ((size_t)mesh->tet_count + WIDTH - 1) / WIDTH;
-    tets->keeping = find_keeping(tets, field);
     const size_t numbers = tets->keeping == KEEP_ONE ? OST_ELASTICITY_COUNT : numbers_kept[tets->keeping] * tets->count;
     OST_TRY(OST_NEW(ctx, &tets->eights, tets->count));
     OST_TRY(OST_NEW(ctx, &tets->elastic, numbers));
+    if (mesh->nodes_per_tet == 10)
+        OST_TRY(OST_NEW(ctx, &tets->bend, BENDS * tets->count));
     OST_TRY(OST_NEW(ctx, &tets->u, 4 * (size_t)mesh->node_count));
     OST_TRY(OST_NEW(ctx, &tets->force, 4 * (size_t)mesh->node_count));
     keep(tets, field);
@@ -176,7 +217,7 @@ OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *
 {
     const OstMesh *mesh = problem->mesh;
     *tets = NULL;
-    if (mesh->nodes_per_tet != 4 || !ost_problem_is_linear(problem))
+    if (!ost_problem_is_linear(problem) || (mesh->nodes_per_tet == 10 && problem->field->form == OST_SPLIT_MEAN))
         return OST_SUCCESS;
     for (int32_t region = 0; region < problem->field->region_count; region++)
         if (!is_fit(problem->field, region))
@@ -186,46 +227,15 @@ OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *
     (*tets)->complement = complement;
     (*tets)->modulus = ost_light_tets_modulus(problem->field);
     (*tets)->length = unit / (*tets)->modulus;
-    const OstStatus status = fill(*tets, problem->field);
-    if (status != OST_SUCCESS)
+    (*tets)->count = ((size_t)mesh->tet_count + WIDTH - 1) / WIDTH;
+    (*tets)->keeping = find_keeping(*tets, problem->field);
+    const OstStatus status = (*tets)->keeping == KEEP_NOT ? OST_SUCCESS : fill(*tets, problem->field);
+    if (status != OST_SUCCESS || (*tets)->keeping == KEEP_NOT)
         ost_light_tets_destroy(tets);
     return status;
 }
 
-/* --- rows of four, and numbers of eight tets --- */
-
-/* Three numbers of eight rows. */
-static inline void transpose(const Four row[WIDTH], Eight out[3])
-{
-    Eight m[4];
-    for (int k = 0; k < 4; k++)
-        m[k] = __builtin_shufflevector(row[k], row[4 + k], 0, 1, 2, 3, 4, 5, 6, 7);
-    const Eight low01 = __builtin_shufflevector(m[0], m[1], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Eight high01 = __builtin_shufflevector(m[0], m[1], 2, 10, 3, 11, 6, 14, 7, 15);
-    const Eight low23 = __builtin_shufflevector(m[2], m[3], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Eight high23 = __builtin_shufflevector(m[2], m[3], 2, 10, 3, 11, 6, 14, 7, 15);
-    out[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
-    out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
-    out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
-}
-
-/* The other way. */
-static inline void transpose_back(const Eight in[3], Four row[WIDTH])
-{
-    const Eight none = {0.0F};
-    const Eight low01 = __builtin_shufflevector(in[0], in[1], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Eight high01 = __builtin_shufflevector(in[0], in[1], 2, 10, 3, 11, 6, 14, 7, 15);
-    const Eight low23 = __builtin_shufflevector(in[2], none, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Eight high23 = __builtin_shufflevector(in[2], none, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Eight m[4] = {__builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13),
-                        __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15),
-                        __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13),
-                        __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15)};
-    for (int k = 0; k < 4; k++) {
-        row[k] = __builtin_shufflevector(m[k], m[k], 0, 1, 2, 3);
-        row[4 + k] = __builtin_shufflevector(m[k], m[k], 4, 5, 6, 7);
-    }
-}
+/* --- reading and adding --- */
 
 /* Of vertices 1 to 3 how they move from vertex 0. (In double precision: a rotation of the whole body is large.) */
 static inline void read_nodes(const OstLightTets *tets, const Eights *eights, Eight moved[VERTICES - 1][3])
@@ -243,18 +253,13 @@ static inline void read_nodes(const OstLightTets *tets, const Eights *eights, Ei
         transpose(row[v], moved[v]);
 }
 
-static inline OstLocal edge_of(const OstLightTets *tets, const Eights *eights, int slot, int e)
-{
-    return tets->complement->edges.of_tet[EDGES * (size_t)eights->tet[slot] + (size_t)e];
-}
-
 static inline void read_functions(const OstLightTets *tets, const Eights *eights, const float *values,
                                   Eight w[EDGES][3])
 {
     for (int e = 0; e < EDGES; e++) {
         Four row[WIDTH];
         for (int slot = 0; slot < WIDTH; slot++)
-            row[slot] = *(const Four *)(values + OST_PER_FUNCTION * (size_t)edge_of(tets, eights, slot, e));
+            row[slot] = *(const Four *)(values + OST_PER_FUNCTION * (size_t)function_of(tets, eights, slot, e));
         transpose(row, w[e]);
     }
 }
@@ -283,37 +288,11 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
         Four row[WIDTH];
         transpose_back(at_functions[e], row);
         for (int slot = 0; slot < WIDTH; slot++)
-            *(Four *)(of_functions + OST_PER_FUNCTION * (size_t)edge_of(tets, eights, slot, e)) += row[slot];
+            *(Four *)(of_functions + OST_PER_FUNCTION * (size_t)function_of(tets, eights, slot, e)) += row[slot];
     }
 }
 
 /* --- forces of eight tets --- */
-
-/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
- * is with `along` = A g in place of the gradient g. */
-typedef struct Linear {
-    Eight gradient[VERTICES][3], along[VERTICES][3], volume;
-    const Kept *elastic;
-    int by_stretch;
-} Linear;
-
-static inline void open(const Eights *eights, const Kept *elastic, int by_stretch, Linear *tet)
-{
-    tet->elastic = elastic;
-    tet->by_stretch = by_stretch;
-    tet->volume = eights->volume;
-    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
-    for (int i = 0; i < 3; i++)
-        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
-    memcpy(tet->along, tet->gradient, sizeof tet->along);
-    for (int v = 0; v < VERTICES && by_stretch; v++) {
-        const Kept *a = elastic;
-        const Eight *g = tet->gradient[v];
-        tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
-        tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
-        tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
-    }
-}
 
 /* slope += v g' */
 static inline void add_slope(const Eight v[3], const Eight g[3], Eight slope[9])
@@ -413,7 +392,7 @@ static inline void find_eight(const OstLightTets *tets, size_t k, const float *f
 {
     const Eights *eights = &tets->eights[k];
     Linear tet;
-    open(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
+    open_linear(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
     read_nodes(tets, eights, moved);
     read_functions(tets, eights, functions, w);
     find_forces(&tet, moved, w, at_nodes, at_functions);
@@ -437,7 +416,10 @@ void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, d
     take(tets, u);
     memset(tets->force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *tets->force);
     memset(of_functions, 0, OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *of_functions);
-    apply_eights(tets, w, of_functions);
+    if (tets->mesh->nodes_per_tet == 10)
+        ost_quadratic_eights_apply(tets, w, of_functions);
+    else
+        apply_eights(tets, w, of_functions);
     for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes; n++)
         for (size_t i = 0; i < 3; i++)
             force[3 * n + i] = tets->force[4 * n + i];
@@ -464,7 +446,10 @@ OST_KERNEL static void find_energies(const OstLightTets *tets, const float *func
 void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy)
 {
     take(tets, u);
-    find_energies(tets, w, energy);
+    if (tets->mesh->nodes_per_tet == 10)
+        ost_quadratic_eights_energy(tets, w, energy);
+    else
+        find_energies(tets, w, energy);
 }
 
 /* --- the functions' own blocks --- */
@@ -507,20 +492,28 @@ static inline void find_block(const Linear *tet, const Squares *squares, const E
     }
 }
 
-static inline void add_to_block(const OstLightTets *tets, const Eights *eights, int e, Eight block[6], float *blocks)
+/* Adds a block to that of function k. */
+static inline void add_to_block(const OstLightTets *tets, const Eights *eights, int k, Eight block[6], float *blocks)
 {
     for (int half = 0; half < 2; half++) {
         Four row[WIDTH];
         transpose_back(block + 3 * half, row);
         for (int slot = 0; slot < WIDTH; slot++)
-            *(Four *)(blocks + OST_PER_BLOCK * (size_t)edge_of(tets, eights, slot, e) + 4 * half) += row[slot];
+            *(Four *)(blocks + OST_PER_BLOCK * (size_t)function_of(tets, eights, slot, k) + 4 * half) += row[slot];
     }
 }
 
-/* The block of 4 L_a L_b is volume × 0.8 times those of L_a, L_b and L_a + L_b; the last is that of the opposite edge,
- * too, as all gradients add up to zero. */
+/* The block of a function of an edge is volume × `own` times the sum of those of L_a and L_b and `both` times that of
+ * L_a + L_b; the last is that of the opposite edge, too, as all gradients add up to zero. That of a face, therefore, is
+ * the same on all four: volume × `face` times the sum of all vertices'. */
+typedef struct Parts {
+    float own, both, face;
+} Parts;
+static const Parts parts_of_linear = {0.8F, 1.0F, 0.0F},
+                   parts_of_quadratic = {768.0F / 840.0F, 1.0F / 3.0F, 1458.0F / 840.0F};
+
 static inline void add_blocks(const OstLightTets *tets, const Eights *eights, const Linear *tet, const Squares *squares,
-                              float *blocks)
+                              const Parts *parts, float *blocks)
 {
     Eight own[VERTICES][6], of_sum[3][6];
     for (int v = 0; v < VERTICES; v++)
@@ -533,29 +526,50 @@ static inline void add_blocks(const OstLightTets *tets, const Eights *eights, co
         }
         find_block(tet, squares, g, along, of_sum[v - 1]);
     }
-    const Eight weight = 0.8F * tet->volume;
+    const Eight weight = parts->own * tet->volume;
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         const int with0 = a == 0 ? b : b == 0 ? a : 6 - a - b; /* the pair with vertex 0: this one, or its opposite */
         Eight block[6];
         for (int p = 0; p < 6; p++)
-            block[p] = weight * (own[a][p] + own[b][p] + of_sum[with0 - 1][p]);
+            block[p] = weight * (own[a][p] + own[b][p] + parts->both * of_sum[with0 - 1][p]);
         add_to_block(tets, eights, e, block, blocks);
     }
+    if (parts->face == 0.0F)
+        return;
+    for (int p = 0; p < 6; p++)
+        own[0][p] = parts->face * tet->volume * (own[0][p] + own[1][p] + own[2][p] + own[3][p]);
+    for (int f = 0; f < 4; f++)
+        add_to_block(tets, eights, EDGES + f, own[0], blocks);
+}
+
+/* About a line, C is that at the centroid: this only preconditions. */
+static inline void find_stretch(const OstLightTets *tets, const Kept *offset, Kept stretch[7])
+{
+    Eight tensor[6];
+    find_stretch_at(&tets->line, offset, ost_tet_degree1.point[0].at, tensor);
+    for (int p = 0; p < 6; p++)
+        stretch[p] = tensor[p];
+    stretch[6] = (Eight){0.0F} + tets->line.shear;
 }
 
 OST_KERNEL static void add_all_blocks(const OstLightTets *tets, float *blocks)
 {
+    const Parts *parts = tets->mesh->nodes_per_tet == 10 ? &parts_of_quadratic : &parts_of_linear;
+    const int by_stretch = tets->keeping == KEEP_STRETCH || tets->keeping == KEEP_OFFSETS;
     Squares squares = {{{{0.0F}}}};
     if (tets->keeping == KEEP_ONE)
         find_squares(tets->elastic, &squares);
     for (size_t k = 0; k < tets->count; k++) {
         const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
+        Kept stretch[7];
         Linear tet;
         if (tets->keeping == KEEP_EACH)
             find_squares(elastic, &squares);
-        open(&tets->eights[k], elastic, tets->keeping == KEEP_STRETCH, &tet);
-        add_blocks(tets, &tets->eights[k], &tet, &squares, blocks);
+        if (tets->keeping == KEEP_OFFSETS)
+            find_stretch(tets, elastic, stretch);
+        open_linear(&tets->eights[k], tets->keeping == KEEP_OFFSETS ? stretch : elastic, by_stretch, &tet);
+        add_blocks(tets, &tets->eights[k], &tet, &squares, parts, blocks);
     }
 }
 
