@@ -141,10 +141,9 @@ OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const 
             if (step->keep != 0.0F)
                 direction += step->keep * step->direction[at];
             step->direction[at] = direction;
-            if (step->from_zero)
-                step->x[at] = __builtin_convertvector(direction, OstColumns);
-            else
-                step->x[at] += __builtin_convertvector(direction, OstColumns);
+            if (!step->is_first)
+                direction += step->sum[at];
+            step->sum[at] = direction;
         }
     }
 }

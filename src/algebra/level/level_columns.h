@@ -15,12 +15,12 @@
 void ost_level_matrix_add_columns(const OstLevelMatrix *matrix, float scale, OstLightColumns *x, OstLightColumns *y,
                                   double *one);
 
-/* Local. As ost_smoother_blocks_step; x has double precision. */
+/* Local. As ost_smoother_blocks_step, but `sum` is what all steps since the first add to x: so x, of double precision,
+ * is read and written once for all. */
 typedef struct OstColumnStep {
     float keep, add;
-    OstLightColumns *direction;
-    OstColumns *x;
-    int from_zero;
+    OstLightColumns *direction, *sum;
+    int is_first;
 } OstColumnStep;
 void ost_smoother_blocks_step_columns(const OstSmootherBlocks *blocks, const OstColumnStep *step,
                                       const OstLightColumns *r);

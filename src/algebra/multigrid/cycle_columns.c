@@ -13,6 +13,7 @@ typedef struct Level {
     const OstCycleLevel *of;
     const OstCycleLevel *next; /* the next coarser; NULL: there is none */
     OstLightColumns *x, *y;    /* over the columns and the rows of its matrix */
+    OstLightColumns *sum;      /* of a sweep's steps, over the rows */
     OstLightColumns *coarse;   /* over the columns of its prolongator */
     OstColumns *of_linear;     /* over the columns of the linear tets; or NULL */
     double *one;               /* one vector, of the coarsest level */
@@ -80,20 +81,29 @@ static OstStatus multiply(void *data, const double *x, double *y)
     return leave(level, OST_SUCCESS);
 }
 
+static void add_sum(size_t n, const OstLightColumns *sum, int from_zero, OstColumns *x)
+{
+    for (size_t i = 0; i < n && from_zero; i++)
+        x[i] = __builtin_convertvector(sum[i], OstColumns);
+    for (size_t i = 0; i < n && !from_zero; i++)
+        x[i] += __builtin_convertvector(sum[i], OstColumns);
+}
+
 /* Chebyshev iteration, as ost_smoother_apply. */
 static void sweep(const Level *level, const double *b, double *x, int from_zero)
 {
     const OstSmoother *smoother = level->of->smoother;
     const OstLevelMatrix *matrix = smoother->matrix;
     OstChebyshev steps = ost_smoother_begin(smoother);
-    OstColumnStep step = {.add = (float)steps.add, .direction = level->x, .x = (OstColumns *)x, .from_zero = from_zero};
-    lighten(ost_level_unknowns(matrix), b, level->y);
+    OstColumnStep step = {.add = (float)steps.add, .direction = level->x, .sum = level->sum, .is_first = 1};
+    const size_t n = ost_level_unknowns(matrix);
+    lighten(n, b, level->y);
     if (!from_zero) {
-        lighten(ost_level_unknowns(matrix), x, level->x);
+        lighten(n, x, level->x);
         ost_level_matrix_add_columns(matrix, -1.0F, level->x, level->y, level->of->own);
     }
     ost_smoother_blocks_step_columns(smoother->blocks, &step, level->y);
-    step.from_zero = 0;
+    step.is_first = 0;
     for (int k = 1; k < smoother->degree; k++) {
         ost_level_matrix_add_columns(matrix, -1.0F, level->x, level->y, level->of->own);
         ost_smoother_next(&steps);
@@ -101,6 +111,7 @@ static void sweep(const Level *level, const double *b, double *x, int from_zero)
         step.add = (float)steps.add;
         ost_smoother_blocks_step_columns(smoother->blocks, &step, level->y);
     }
+    add_sum(n, level->sum, from_zero, (OstColumns *)x);
 }
 
 /* On the coarsest level. */
@@ -162,8 +173,10 @@ static OstStatus create_level(OstContext *ctx, const OstCycle *cycle, int l, Lev
     const OstCycleLevel *of = &cycle->level[l];
     const size_t size = (size_t)of->matrix->size, columns = size * (size_t)of->matrix->columns;
     *level = (Level){.of = of, .next = l + 1 < cycle->count ? of + 1 : NULL};
-    OST_TRY(OST_NEW(ctx, &level->x, columns + ost_level_unknowns(of->matrix)));
+    const size_t rows = ost_level_unknowns(of->matrix);
+    OST_TRY(OST_NEW(ctx, &level->x, columns + 2 * rows));
     level->y = level->x + columns;
+    level->sum = level->y + rows;
     if (of->prolongator)
         OST_TRY(OST_NEW(ctx, &level->coarse, OST_MODES * (size_t)of->prolongator->columns));
     if (of->quadratic)
