@@ -13,6 +13,7 @@
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -290,15 +291,17 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
     const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
-    const int may = may_change(solver) || may_be_precise(solver, goal);
+    const int is_last = goal->patience == 0; /* no other is left, or it is the user's */
+    const int may = (may_change(solver) && !is_last) || may_be_precise(solver, goal);
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
-/* The method that converged fastest, AUTO if none did. */
+/* The method that converged fastest, AUTO if none came so far. Where few motions are far softer than all others, as in
+ * fibres of a material near the border of stability, neither norm need fall in a window, and later falls fast. */
 static OstMethod fastest(const OstSolveReport *report)
 {
     OstMethod found = OST_METHOD_AUTO;
-    double least = 0.9999;
+    double least = INFINITY;
     for (int s = 0; s < report->steps; s++)
         if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
             found = report->step[s].method;
@@ -317,6 +320,22 @@ static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
                      ost_rounding_remedy);
 }
 
+/* Says what it costs that no other strategy is left. */
+static void tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report)
+{
+    for (int s = report->steps - 1; s >= 0; s--) {
+        const OstSolveStep *step = &report->step[s];
+        if (step->method != solver->method || step->iterations == 0)
+            continue;
+        ost_log(solver->ctx, OST_LOG_NORMAL,
+                "solver: no strategy is quick here, and factors do not fit into memory: %s goes on, at some %.2g s an "
+                "iteration, for up to %d more (solver.max_iterations)",
+                ost_method_name(step->method), step->seconds / step->iterations,
+                goal->most_iterations - goal->iterations);
+        return;
+    }
+}
+
 /* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
  * fastest so far. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
@@ -333,7 +352,9 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
     if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */
-    return build(solver, best, report->step, &report->steps);
+    OST_TRY(build(solver, best, report->step, &report->steps));
+    tell_last(solver, goal, report);
+    return OST_SUCCESS;
 }
 
 static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
