@@ -276,6 +276,9 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
             ost_method_name(step->method), report->engine, step->iterations, ost_own_seconds(solver->ctx) - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
+    solver->broken &= ~(1U << solver->method);
+    if (goal->end == OST_END_PRECONDITIONER)
+        solver->broken |= 1U << solver->method;
     return status;
 }
 
@@ -296,17 +299,23 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
-/* The method that converged fastest, AUTO if none came so far. Where few motions are far softer than all others, as in
- * fibres of a material near the border of stability, neither norm need fall in a window, and later falls fast. */
-static OstMethod fastest(const OstSolveReport *report)
+/* What an iteration with the stronger smoother costs, over one of METRIC. */
+static const double strong_price = 2.0;
+
+/* The method that converged fastest for its price, AUTO if none came so far. It may be one whose norms did not fall at
+ * all: where motions of the whole body are far softer than others, they fall late, and then fast. */
+static OstMethod fastest(const OstSolver *solver, const OstSolveReport *report)
 {
     OstMethod found = OST_METHOD_AUTO;
-    double least = INFINITY;
-    for (int s = 0; s < report->steps; s++)
-        if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
-            found = report->step[s].method;
-            least = report->step[s].factor;
-        }
+    double most = -1.0;
+    for (int s = 0; s < report->steps; s++) {
+        const OstSolveStep *step = &report->step[s];
+        const double gain = -log(step->factor) / (step->method == OST_METHOD_METRIC ? 1.0 : strong_price);
+        if (step->iterations < OST_CONVERGENCE_WINDOW || solver->broken & 1U << step->method || !(gain > most))
+            continue;
+        found = step->method;
+        most = gain;
+    }
     return found;
 }
 
@@ -348,7 +357,7 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
         return status;
     if (goal->singular || solver->singular)
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
-    const OstMethod best = fastest(report);
+    const OstMethod best = fastest(solver, report);
     if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */

@@ -136,12 +136,12 @@ static OstStatus correct(Search *search, OstErrors *errors)
     return OST_SUCCESS;
 }
 
-/* Does one application of the preconditioner not tell enough? */
+/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? */
 static int is_rough(const OstErrors *errors)
 {
     const double forces = fmax(errors->reaction, errors->stress);
     const int doubts = forces > fmax(doubtful * errors->displacement, least_doubtful);
-    return largest(errors) > small_error || (errors->known && doubts);
+    return !errors->known || largest(errors) > small_error || doubts;
 }
 
 static OstStatus measure_all(Search *search, OstErrors *errors)
