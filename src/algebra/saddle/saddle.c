@@ -300,10 +300,21 @@ static OstStatus find_limit(OstSaddleRun *run)
     return OST_SUCCESS;
 }
 
+/* Passes from residuals in twice the precision gain nothing: what else rounds in them is the reason, and is no part of
+ * the limit. Not while there is another strategy, which may round less. */
+static void blame_passes(const OstSaddleRun *run)
+{
+    OstGoal *goal = run->goal;
+    const int stalls = goal->end == OST_END_REACHED && !run->lost && goal->iterations < goal->most_iterations;
+    if (stalls && goal->compensated && goal->patience == 0)
+        goal->limit = fmax(goal->limit, goal->norm);
+}
+
 static OstStatus explain_end(OstSaddleRun *run)
 {
     OstGoal *goal = run->goal;
     OST_TRY(find_limit(run));
+    blame_passes(run);
     if (run->lost && goal->end == OST_END_REACHED && !ost_goal_at_limit(goal)) {
         goal->end = OST_END_PRECONDITIONER;
         snprintf(goal->words, sizeof goal->words,
