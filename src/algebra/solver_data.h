@@ -20,6 +20,7 @@ struct OstSolver {
     int is_shared;           /* are strategy and map another solver's? */
     int precise;             /* has single precision been found too little for the coarse levels? */
     unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
+    int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
     int singular;            /* has a strategy found its factors, and so the stiffness, singular to rounding? */
     OstSolverPlan plan;
     /* the current strategy: */

@@ -33,7 +33,7 @@ static const struct argp_option options[] = {
      0},
     {"iterated", 'I', 0, 0, "Leave the solver no factorisation but that of the coarsest level", 0},
     {"all", 'a', 0, 0, "With --size: all points and not six of each shape and order", 0},
-    {"iterations", 'L', "N", 0, "Without a factorisation: at most N iterations (500)", 0},
+    {"iterations", 'L', "N", 0, "Without a factorisation: at most N iterations, in place of the program's own limit", 0},
     {"like", 'l', "TEXT", 0, "Only points whose description, as it is printed, has this", 0},
     {"sample", 'N', "N", 0, "Of the points, N of each shape, the same in every run", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
