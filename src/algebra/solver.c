@@ -304,9 +304,9 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 /* What an iteration with the stronger smoother costs, over one of METRIC. */
 static const double strong_price = 2.0;
 
-/* The method that converged fastest for its price, AUTO if none of those that are not left out came so far. It may be one
- * whose norms did not fall at all: where motions of the whole body are far softer than others, they fall late, and then
- * fast. */
+/* The method that converged fastest for its price, AUTO if none of those that are not left out came so far. It may be
+ * one whose norms did not fall at all: where motions of the whole body are far softer than others, they fall late, and
+ * then fast. */
 static OstMethod fastest_but(const OstSolveReport *report, unsigned left_out)
 {
     OstMethod found = OST_METHOD_AUTO;

@@ -387,8 +387,8 @@ static void object_to_forces(OstResult *result, const Body *body, const OstError
                100.0 * checks->energy_imbalance, remedy, worst[0] ? "; " : "", worst);
 }
 
-/* Rounding of the stiffness's entries may leave the tets a residual above the one asked for. The errors that it makes were
- * found from it: where they are no larger than that, nothing is wrong. */
+/* Rounding of the stiffness's entries may leave the tets a residual above the one asked for. The errors that it makes
+ * were found from it: where they are no larger than that, nothing is wrong. */
 static int is_right(const OstErrors *errors, double requested)
 {
     return errors->corrected ||

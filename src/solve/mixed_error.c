@@ -140,8 +140,8 @@ static OstStatus correct(Search *search, OstErrors *errors)
 static int is_rough(const OstErrors *errors)
 {
     const double forces = fmax(errors->reaction, errors->stress);
-    const int doubts = forces > fmax(doubtful * errors->displacement, least_doubtful) ||
-                       forces > most_doubtful * errors->displacement;
+    const int doubts =
+        forces > fmax(doubtful * errors->displacement, least_doubtful) || forces > most_doubtful * errors->displacement;
     return !errors->known || largest(errors) > small_error || doubts;
 }
 

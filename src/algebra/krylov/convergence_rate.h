@@ -26,8 +26,9 @@ void ost_convergence_start(OstConvergence *convergence, double norm);
 void ost_convergence_begin_pass(OstConvergence *convergence);
 void ost_convergence_add(OstConvergence *convergence, double norm, double weight);
 
-/* Has the pass gone on so long without halving either norm, more than a third of its iterations, that it never will? The
- * slowest that still reach 1e-8 halve one in 250 at first, and more quickly once the smallest eigenvalues are found. */
+/* Has the pass gone on so long without halving either norm, more than a third of its iterations, that it never will?
+ * The slowest that still reach 1e-8 halve one in 250 at first, and more quickly once the smallest eigenvalues are
+ * found. */
 int ost_convergence_stagnates(const OstConvergence *convergence);
 
 /* The convergence rate, by which an iteration multiplies the norm (geometric mean): over the last window and over all

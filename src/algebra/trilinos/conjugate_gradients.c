@@ -73,8 +73,8 @@ static OstStatus next_step(Aztec *aztec, double *z)
     OST_TRY(count_step(aztec, &norm));
     if (aztec->steps > 0)
         OST_TRY(ost_cg_judge_error(run, aztec->solution, goal));
-    aztec->stopped = norm <= goal->target || goal->enough || goal->stagnates ||
-                     goal->end != OST_END_REACHED || goal->iterations >= goal->most_iterations;
+    aztec->stopped = norm <= goal->target || goal->enough || goal->stagnates || goal->end != OST_END_REACHED ||
+                     goal->iterations >= goal->most_iterations;
     if (aztec->stopped)
         return OST_SUCCESS;
     OST_TRY(run->preconditioner->apply(run->preconditioner->data, aztec->residual, z));
