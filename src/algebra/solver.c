@@ -13,7 +13,6 @@
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -301,36 +300,6 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
-/* What an iteration with the stronger smoother costs, over one of METRIC. */
-static const double strong_price = 2.0;
-
-/* The method that converged fastest for its price, AUTO if none of those that are not left out came so far. It may be
- * one whose norms did not fall at all: where motions of the whole body are far softer than others, they fall late, and
- * then fast. */
-static OstMethod fastest_but(const OstSolveReport *report, unsigned left_out)
-{
-    OstMethod found = OST_METHOD_AUTO;
-    double most = -1.0;
-    for (int s = 0; s < report->steps; s++) {
-        const OstSolveStep *step = &report->step[s];
-        const double gain = -log(step->factor) / (step->method == OST_METHOD_METRIC ? 1.0 : strong_price);
-        if (step->iterations < OST_CONVERGENCE_WINDOW || left_out & 1U << step->method || !(gain > most))
-            continue;
-        found = step->method;
-        most = gain;
-    }
-    return found;
-}
-
-/* Linear tets that lock begin well, and then take longest: a tube with E3 x 1e6 along circles 3304 iterations, over 439
- * with the strong smoother, which does without them. */
-static OstMethod fastest(const OstSolver *solver, const OstSolveReport *report)
-{
-    const unsigned over_linear = solver->over_linear ? 1U << OST_METHOD_METRIC : 0U;
-    const OstMethod found = fastest_but(report, solver->broken | over_linear);
-    return found != OST_METHOD_AUTO ? found : fastest_but(report, solver->broken);
-}
-
 /* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
 static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
 {
@@ -339,22 +308,6 @@ static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
     return OST_RAISE(ctx, OST_NOT_CONVERGED,
                      "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
                      ost_rounding_remedy);
-}
-
-/* Says what it costs that no other strategy is left. */
-static void tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report)
-{
-    for (int s = report->steps - 1; s >= 0; s--) {
-        const OstSolveStep *step = &report->step[s];
-        if (step->method != solver->method || step->iterations == 0)
-            continue;
-        ost_log(solver->ctx, OST_LOG_NORMAL,
-                "solver: no strategy is quick here, and factors do not fit into memory: %s goes on, at some %.2g s an "
-                "iteration, for up to %d more (solver.max_iterations)",
-                ost_method_name(step->method), step->seconds / step->iterations,
-                goal->most_iterations - goal->iterations);
-        return;
-    }
 }
 
 /* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
@@ -369,12 +322,12 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
         return status;
     if (goal->singular || solver->singular)
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
-    const OstMethod best = fastest(solver, report);
+    const OstMethod best = ost_solver_fastest(solver, report);
     if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */
     OST_TRY(build(solver, best, report->step, &report->steps));
-    tell_last(solver, goal, report);
+    ost_solver_tell_last(solver, goal, report);
     return OST_SUCCESS;
 }
 

@@ -53,4 +53,11 @@ OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
 OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,
                                    OstSolveReport *report);
 
+/* Local. The method to go on with where no next one can be built: that which has converged fastest, for what an
+ * iteration costs; AUTO if none has come so far. */
+OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *report);
+
+/* Local. Says that no other strategy is left, and what this one costs. */
+void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report);
+
 #endif

@@ -233,7 +233,7 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
             return OST_SUCCESS;
         before = run->weight;
         if (run->passes == 0) /* a run of conjugate gradients; the passes that follow are others */
-            ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
+            OST_TRY(ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight));
         step(run, run->weight / curvature);
         OST_TRY(ost_saddle_find_norm(run, &norm));
         *broken = !(norm <= most);

@@ -59,7 +59,7 @@ static OstStatus count_step(Aztec *aztec, double *norm)
     if (aztec->steps == 0)
         return OST_SUCCESS;
     if (run->runs == 0)
-        ost_lanczos_add(&run->lanczos, aztec->weight / sums[1], aztec->weight);
+        OST_TRY(ost_lanczos_add(&run->lanczos, aztec->weight / sums[1], aztec->weight));
     ost_goal_count(aztec->goal, *norm, run->size * run->size * aztec->weight);
     return OST_SUCCESS;
 }
