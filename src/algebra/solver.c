@@ -275,6 +275,11 @@ static OstStatus work(OstSolver *solver, const double *f, double *u, OstGoal *go
             ost_method_name(step->method), report->engine, step->iterations, ost_own_seconds(solver->ctx) - start,
             step->relative_residual, step->outcome);
     solver->strategy_seconds = 0.0;
+    solver->broken &= ~(1U << solver->method);
+    if (goal->end == OST_END_PRECONDITIONER)
+        solver->broken |= 1U << solver->method;
+    if (solver->method == OST_METHOD_METRIC)
+        solver->over_linear = ost_metric_is_over_linear(solver->metric);
     return status;
 }
 
@@ -290,21 +295,9 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 {
     const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
     const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
-    const int may = may_change(solver) || may_be_precise(solver, goal);
+    const int is_last = goal->patience == 0; /* no other is left, or it is the user's */
+    const int may = (may_change(solver) && !is_last) || may_be_precise(solver, goal);
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
-}
-
-/* The method that converged fastest, AUTO if none did. */
-static OstMethod fastest(const OstSolveReport *report)
-{
-    OstMethod found = OST_METHOD_AUTO;
-    double least = 0.9999;
-    for (int s = 0; s < report->steps; s++)
-        if (report->step[s].iterations >= OST_CONVERGENCE_WINDOW && report->step[s].factor < least) {
-            found = report->step[s].method;
-            least = report->step[s].factor;
-        }
-    return found;
 }
 
 /* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
@@ -329,11 +322,13 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
         return status;
     if (goal->singular || solver->singular)
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
-    const OstMethod best = fastest(report);
+    const OstMethod best = ost_solver_fastest(solver, report);
     if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */
-    return build(solver, best, report->step, &report->steps);
+    OST_TRY(build(solver, best, report->step, &report->steps));
+    ost_solver_tell_last(solver, goal, report);
+    return OST_SUCCESS;
 }
 
 static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)

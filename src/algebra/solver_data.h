@@ -19,6 +19,8 @@ struct OstSolver {
     int aged;                /* have the matrix's values changed since the current strategy was built? */
     int is_shared;           /* are strategy and map another solver's? */
     int precise;             /* has single precision been found too little for the coarse levels? */
+    unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
+    int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
     int singular;            /* has a strategy found its factors, and so the stiffness, singular to rounding? */
     OstSolverPlan plan;
     /* the current strategy: */
@@ -50,5 +52,12 @@ OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
 /* Collective. Improves u and the pressures of solver->saddle by the current strategy, as ost_saddle_solve. */
 OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,
                                    OstSolveReport *report);
+
+/* Local. The method to go on with where no next one can be built: that which has converged fastest, for what an
+ * iteration costs; AUTO if none has come so far. */
+OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *report);
+
+/* Local. Says that no other strategy is left, and what this one costs. */
+void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report);
 
 #endif

@@ -100,7 +100,7 @@ static OstStatus find_error(OstSolver *solver, double missing, const OstSaddle *
 OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u,
                                  double *e_u, int *found)
 {
-    *found = solver->whole || (ost_solver_has_preconditioner(solver) && solver->smallest > 0.0);
+    *found = solver->whole || (ost_solver_has_preconditioner(solver) && (missing < 1.0 || solver->smallest > 0.0));
     if (!*found)
         return OST_SUCCESS;
     ost_ledger_enter(solver->ctx, OST_LEDGER_SOLVE);

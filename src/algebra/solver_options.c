@@ -17,7 +17,7 @@ OstSolverOptions ost_solver_default_options(void)
 {
     return (OstSolverOptions){.method = OST_METHOD_AUTO,
                               .relative_residual = 1e-8,
-                              .max_iterations = 1000,
+                              .max_iterations = 20000,
                               .patience = 150,
                               .aggregate_nodes = 40.0,
                               .coarse_aggregate_nodes = 8.0,

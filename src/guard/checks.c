@@ -387,6 +387,14 @@ static void object_to_forces(OstResult *result, const Body *body, const OstError
                100.0 * checks->energy_imbalance, remedy, worst[0] ? "; " : "", worst);
 }
 
+/* Rounding of the stiffness's entries may leave the tets a residual above the one asked for. The errors that it makes
+ * were found from it: where they are no larger than that, nothing is wrong. */
+static int is_right(const OstErrors *errors, double requested)
+{
+    return errors->corrected ||
+           (errors->known && errors->displacement <= requested && fmax(errors->reaction, errors->stress) <= requested);
+}
+
 /* Each comparison is written so that NaN fails it. */
 static void judge(OstResult *result, const OstErrors *errors, double requested, Explained explained)
 {
@@ -395,7 +403,7 @@ static void judge(OstResult *result, const OstErrors *errors, double requested, 
         ost_object(&result->verdict, OST_CHECK_FAILED, "the displacement is not finite everywhere");
         return;
     }
-    if (!errors->corrected && !(checks->relative_residual <= 2.0 * requested + checks->rounding))
+    if (!is_right(errors, requested) && !(checks->relative_residual <= 2.0 * requested + checks->rounding))
         ost_object(&result->verdict, OST_CHECK_FAILED,
                    "the true residual, summed tet by tet, is %.2e where %.2e was asked for (rounding explains %.1e)",
                    checks->relative_residual, requested, checks->rounding);

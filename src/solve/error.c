@@ -181,7 +181,7 @@ static OstStatus take_step(const Search *search, Correction *correction, double 
     if (!*taken)
         return OST_SUCCESS;
     const double length = sums[1] / sums[0];
-    ost_lanczos_add(&correction->lanczos, length, beta);
+    OST_TRY(ost_lanczos_add(&correction->lanczos, length, beta));
     for (size_t i = 0; i < rows; i++)
         search->solved->unknowns[i] += length * correction->step[i];
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->node_count; i++)

@@ -11,8 +11,8 @@
 static const double small_error = 1e-6, part = 0.1;
 
 /* Reactions and stresses so much worse than the displacement are seldom true: one application makes up to 3000 times
- * too much of them. Below the second number that is no matter. */
-static const double doubtful = 10.0, least_doubtful = 1e-7;
+ * too much of them. Below the second number that is no matter, but for those that are worse by the third. */
+static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e3;
 
 /* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
  * and above which residual they are as asked for. */
@@ -136,12 +136,13 @@ static OstStatus correct(Search *search, OstErrors *errors)
     return OST_SUCCESS;
 }
 
-/* Does one application of the preconditioner not tell enough? */
+/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? */
 static int is_rough(const OstErrors *errors)
 {
     const double forces = fmax(errors->reaction, errors->stress);
-    const int doubts = forces > fmax(doubtful * errors->displacement, least_doubtful);
-    return largest(errors) > small_error || (errors->known && doubts);
+    const int doubts =
+        forces > fmax(doubtful * errors->displacement, least_doubtful) || forces > most_doubtful * errors->displacement;
+    return !errors->known || largest(errors) > small_error || doubts;
 }
 
 static OstStatus measure_all(Search *search, OstErrors *errors)

@@ -37,7 +37,7 @@ static void step(Run *run)
         run->r[i] -= alpha * run->value[i] * run->p[i];
         next += run->r[i] * run->r[i];
     }
-    ost_lanczos_add(&run->lanczos, alpha, run->weight);
+    assert_success(ost_lanczos_add(&run->lanczos, alpha, run->weight));
     for (int i = 0; i < UNKNOWNS; i++)
         run->p[i] = run->r[i] + next / run->weight * run->p[i];
     run->weight = next;

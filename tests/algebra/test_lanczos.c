@@ -24,7 +24,7 @@ static double condition_after(int n, const double *values, int steps)
             r[i] -= rr / energy * values[i] * p[i];
             next += r[i] * r[i];
         }
-        ost_lanczos_add(&lanczos, rr / energy, rr);
+        assert_success(ost_lanczos_add(&lanczos, rr / energy, rr));
         const double beta = next / rr;
         rr = next;
         for (int i = 0; i < n; i++)
@@ -63,10 +63,25 @@ static void no_steps_give_no_estimate_and_one_gives_1(void **state)
     assert_close(condition_after(2, values, 1), 1.0, 1e-10);
 }
 
+/* Room grows with the steps, up to those asked for. */
+static void slow_solves_keep_all_steps(void **state)
+{
+    enum { MOST = 3000 };
+    OstLanczos lanczos;
+    assert_success(ost_lanczos_create(ctx, MOST, &lanczos));
+    for (int k = 0; k < MOST + 5; k++)
+        assert_success(ost_lanczos_add(&lanczos, k, -k));
+    assert_int_equal(lanczos.count, MOST);
+    for (int k = 0; k < MOST; k++)
+        assert_true(lanczos.alpha[k] == k && lanczos.weight[k] == -k);
+    ost_lanczos_destroy(&lanczos);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(as_many_steps_as_eigenvalues_give_the_condition_number),
     cmocka_unit_test(fewer_steps_give_a_lower_bound),
     cmocka_unit_test(no_steps_give_no_estimate_and_one_gives_1),
+    cmocka_unit_test(slow_solves_keep_all_steps),
 };
 
 OST_TEST_MAIN(tests)

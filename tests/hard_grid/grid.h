@@ -36,6 +36,7 @@ typedef struct HardPoint {
     HardFlaw flaw;
     OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
     int iterated;   /* without a factorisation; one at size always is */
+    int iterations; /* at most, without a factorisation; 0: as a case has */
 } HardPoint;
 
 typedef enum {
@@ -101,6 +102,8 @@ typedef struct HardRun {
     OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
     int iterated;            /* solved without a factorisation */
     int all;                 /* with a size: all points, and not the spread of six a shape and order */
+    int iterations;          /* at most, without a factorisation; 0: as a case has */
+    const char *like;        /* only points whose description has this; NULL: all */
     int sample;              /* so many of each shape, drawn with a fixed seed; 0: all */
 } HardRun;
 

@@ -33,6 +33,9 @@ static const struct argp_option options[] = {
      0},
     {"iterated", 'I', 0, 0, "Leave the solver no factorisation but that of the coarsest level", 0},
     {"all", 'a', 0, 0, "With --size: all points and not six of each shape and order", 0},
+    {"iterations", 'L', "N", 0, "Without a factorisation: at most N iterations, in place of the program's own limit",
+     0},
+    {"like", 'l', "TEXT", 0, "Only points whose description, as it is printed, has this", 0},
     {"sample", 'N', "N", 0, "Of the points, N of each shape, the same in every run", 0},
     {"json", 'j', "FILE", 0, "Write every reading as JSON here; - for standard output; may be given twice", 0},
     {0},
@@ -87,6 +90,15 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
             return 0;
         argp_error(state, "--sample wants a number of bodies of each shape, 1 to 10,000, and got '%s'", value);
         return EINVAL;
+    case 'L':
+        arguments->run.iterations = (int)strtol(value, &end, 10);
+        if (!*end && arguments->run.iterations >= 1)
+            return 0;
+        argp_error(state, "--iterations wants a number, 1 or more, and got '%s'", value);
+        return EINVAL;
+    case 'l':
+        arguments->run.like = value;
+        return 0;
     case 'j':
         if (arguments->report_count == MOST_REPORTS) {
             argp_error(state, "--json is given more than %d times", MOST_REPORTS);

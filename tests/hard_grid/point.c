@@ -4,6 +4,7 @@
 #include "hard_grid/grid.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* --quick takes every 47th point, of the mixed form every 7th: primes that divide no count of values, so that every
  * value occurs. */
@@ -62,8 +63,9 @@ typedef struct PointList {
     const int *wanted;
     int stride;
     int seen;
-    int mixed, iterated;
+    int mixed, iterated, iterations;
     OstGlobal size;
+    const char *like;
     int spread; /* only the spread of each shape and order? */
 } PointList;
 
@@ -84,16 +86,24 @@ static int is_in_spread(const HardPoint *point)
     return 0;
 }
 
+static int is_like(const PointList *list, const HardPoint *point)
+{
+    char text[160];
+    hard_describe(point, text, sizeof text);
+    return !list->like || strstr(text, list->like);
+}
+
 /* Flawed points cost almost nothing: --quick takes them all. They are refused whatever their size. */
 static void add(PointList *list, HardPoint point)
 {
     if (list->spread && !is_in_spread(&point))
         return;
     const int taken = point.flaw != HARD_SOUND ? list->size == 0 : list->seen++ % list->stride == 0;
-    if (!taken || !list->wanted[point.shape])
+    if (!taken || !list->wanted[point.shape] || !is_like(list, &point))
         return;
     point.size = list->size;
     point.iterated = list->iterated;
+    point.iterations = list->iterations;
     if (list->point)
         list->point[list->count] = point;
     list->count++;
@@ -171,7 +181,9 @@ OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint
                                              : QUICK_STRIDE,
                       .mixed = run->mixed,
                       .iterated = run->iterated,
+                      .iterations = run->iterations,
                       .size = run->size,
+                      .like = run->like,
                       .spread = run->size > 0 && !run->all};
     add_all(&list);
     *count = list.count;

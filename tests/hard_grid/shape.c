@@ -4,9 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* A body at size that takes more is given up, so that its time is bounded. */
-enum { MOST_ITERATIONS = 500 };
-
 /* A body: a tube, or a box from the origin, whose cells may be moved and marked (hard_mesh.c). */
 typedef struct HardShape {
     const char *name;
@@ -124,7 +121,8 @@ OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard
     hard->c.solver.accept_attainable = 1;
     if (point->size > 0 || point->iterated) { /* a byte: nothing is factored but multigrid's coarsest level */
         hard->c.solver.factor_memory = 1.0;
-        hard->c.solver.max_iterations = MOST_ITERATIONS;
+        if (point->iterations > 0)
+            hard->c.solver.max_iterations = point->iterations;
     }
     hard->c.constraint_count = hard->c.load_count = 1;
     hard->c.constraints = &hard->constraint;

@@ -113,6 +113,7 @@ static OstStatus solve_scaled(void *data, const double *r, double *u, OstGoal *g
     OST_TRY(ost_vector_size(run->ctx, run->n, run->residual, &run->size));
     for (size_t i = 0; i < run->n; i++)
         run->residual[i] /= run->size;
+    ost_goal_begin_pass(goal);
     const int by_own = run->preconditioner->factors || ost_together_any(run->ctx);
     const OstStatus status = by_own ? ost_cg_run_by_own(run, u, goal) : ost_cg_run_by_aztec(run, u, goal);
     for (size_t i = 0; i < run->n; i++)

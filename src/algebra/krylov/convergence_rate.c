@@ -3,10 +3,35 @@
 
 #include <math.h>
 
+/* Iterations in which a pass gains nothing. */
+enum { STAGNATION = 500 };
+
 void ost_convergence_start(OstConvergence *convergence, double norm)
 {
     convergence->count = 0;
     convergence->residual.first = convergence->residual.least = norm;
+    ost_convergence_begin_pass(convergence);
+}
+
+void ost_convergence_begin_pass(OstConvergence *convergence)
+{
+    convergence->pass = convergence->halved = convergence->count;
+    convergence->next_residual = convergence->next_energy = INFINITY;
+}
+
+static void note_gain(OstConvergence *convergence, double norm, double energy)
+{
+    if (!(norm <= convergence->next_residual || energy <= convergence->next_energy))
+        return;
+    convergence->halved = convergence->count;
+    convergence->next_residual = fmin(convergence->next_residual, 0.5 * norm);
+    convergence->next_energy = fmin(convergence->next_energy, 0.5 * energy);
+}
+
+int ost_convergence_stagnates(const OstConvergence *convergence)
+{
+    const int since = convergence->count - convergence->halved;
+    return since >= STAGNATION && 3 * since > convergence->count - convergence->pass;
 }
 
 static void follow(OstTrack *track, int count, double norm)
@@ -24,6 +49,7 @@ void ost_convergence_add(OstConvergence *convergence, double norm, double weight
     follow(&convergence->residual, convergence->count, norm);
     follow(&convergence->energy, convergence->count, energy);
     convergence->count++;
+    note_gain(convergence, norm, energy);
 }
 
 static double mean(double ratio, int count)
@@ -31,10 +57,15 @@ static double mean(double ratio, int count)
     return pow(ratio, 1.0 / count);
 }
 
+static double whole_factor(const OstTrack *track, int count)
+{
+    return mean(track->least / track->first, count);
+}
+
 static double window_factor(const OstTrack *track, int count)
 {
     if (count < OST_CONVERGENCE_WINDOW)
-        return count > 0 ? mean(track->least / track->first, count) : 1.0;
+        return count > 0 ? whole_factor(track, count) : 1.0;
     return mean(track->least / track->before[count % OST_CONVERGENCE_WINDOW], OST_CONVERGENCE_WINDOW);
 }
 
@@ -46,8 +77,10 @@ double ost_convergence_factor(const OstConvergence *convergence)
 
 double ost_convergence_whole_factor(const OstConvergence *convergence)
 {
-    return convergence->count > 0 ? mean(convergence->residual.least / convergence->residual.first, convergence->count)
-                                  : 1.0;
+    const int count = convergence->count;
+    if (count == 0)
+        return 1.0;
+    return fmin(whole_factor(&convergence->residual, count), whole_factor(&convergence->energy, count));
 }
 
 double ost_convergence_remaining(const OstConvergence *convergence, double target)

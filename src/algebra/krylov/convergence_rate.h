@@ -15,14 +15,24 @@ typedef struct OstTrack {
 typedef struct OstConvergence {
     int count; /* iterations so far */
     OstTrack residual, energy;
+    /* of the pass at hand, which began from a true residual: the iteration before it, the last one that halved a norm,
+     * and the norms that are to be halved next */
+    int pass, halved;
+    double next_residual, next_energy;
 } OstConvergence;
 
 /* Local, all. `weight` is r·z. */
 void ost_convergence_start(OstConvergence *convergence, double norm);
+void ost_convergence_begin_pass(OstConvergence *convergence);
 void ost_convergence_add(OstConvergence *convergence, double norm, double weight);
 
-/* The convergence rate, by which an iteration multiplies the norm (geometric mean): over the last window and the norm
- * that falls faster; over all iterations and the 2-norm. */
+/* Has the pass gone on so long without halving either norm, more than a third of its iterations, that it never will?
+ * The slowest that still reach 1e-8 halve one in 250 at first, and more quickly once the smallest eigenvalues are
+ * found. */
+int ost_convergence_stagnates(const OstConvergence *convergence);
+
+/* The convergence rate, by which an iteration multiplies the norm (geometric mean): over the last window and over all
+ * iterations, of the norm that falls faster. */
 double ost_convergence_factor(const OstConvergence *convergence);
 double ost_convergence_whole_factor(const OstConvergence *convergence);
 

@@ -54,6 +54,12 @@ int ost_goal_saved(const OstGoal *goal)
     return (int)fmin(ceil(log(goal->target / goal->norm) / log(goal->rate)), goal->most_iterations - goal->iterations);
 }
 
+void ost_goal_begin_pass(OstGoal *goal)
+{
+    goal->stagnates = 0;
+    ost_convergence_begin_pass(&goal->convergence);
+}
+
 int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
@@ -71,7 +77,8 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
                  "after %d iterations each still multiplies the residual by %.4f: too slow", goal->convergence.count,
                  ost_convergence_factor(&goal->convergence));
     }
-    return goal->end == OST_END_REACHED;
+    goal->stagnates = ost_convergence_stagnates(&goal->convergence);
+    return goal->end == OST_END_REACHED && !goal->stagnates;
 }
 
 int ost_goal_at_limit(const OstGoal *goal)

@@ -50,6 +50,7 @@ typedef struct OstGoal {
     double next;              /* the error at which it is asked next; 0: not asked yet */
     int enough;               /* it has ended the iteration */
     OstAlgebraicError error;  /* of u in the norm of the energy; 0 where it is not known */
+    int stagnates;            /* the pass at hand gains nothing: what comes next begins from a true residual */
     double rate;              /* by which an iteration multiplies it */
     int indefinite;           /* p·Ap < 0 was found */
     OstEnd end;
@@ -60,8 +61,11 @@ typedef struct OstGoal {
 /* Collective. The goal of A u = f from u = 0. Raises OST_INVALID_INPUT if f is not finite. */
 OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstSolverOptions *options, OstGoal *goal);
 
+/* Local. Before the first iteration from a true residual. */
+void ost_goal_begin_pass(OstGoal *goal);
+
 /* Local. Counts an iteration with r·z = weight whose residual has this norm, and shows the progress. Returns whether to
- * go on: not if the target is reached, or the iterations or the patience are used up. */
+ * go on: not if the target is reached, the pass stagnates, or the iterations or the patience are used up. */
 int ost_goal_count(OstGoal *goal, double norm, double weight);
 
 /* Local. Ends with OST_END_ITERATIONS. */

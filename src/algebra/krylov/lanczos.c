@@ -7,12 +7,20 @@
 #include <float.h>
 #include <math.h>
 
-/* More steps would not change the estimate; a high iteration limit should cost no memory. */
-enum { MOST_STEPS = 10000 };
+/* More steps would not change the estimate. Few solves take more than the second number, so that a high iteration limit
+ * costs no memory. */
+enum { MOST_STEPS = 10000, FIRST_STEPS = 1000, GROWTH = 4 };
+
+static int least(int one, int other)
+{
+    return one < other ? one : other;
+}
 
 OstStatus ost_lanczos_create(OstContext *ctx, int steps, OstLanczos *lanczos)
 {
-    lanczos->room = steps < MOST_STEPS ? steps : MOST_STEPS;
+    lanczos->ctx = ctx;
+    lanczos->most = least(steps, MOST_STEPS);
+    lanczos->room = least(lanczos->most, FIRST_STEPS);
     lanczos->count = 0;
     lanczos->alpha = NULL;
     lanczos->weight = NULL;
@@ -25,12 +33,25 @@ void ost_lanczos_destroy(OstLanczos *lanczos)
     OST_FREE(lanczos->alpha, lanczos->weight);
 }
 
-void ost_lanczos_add(OstLanczos *lanczos, double alpha, double weight)
+static OstStatus grow(OstLanczos *lanczos)
 {
-    if (lanczos->count >= lanczos->room)
-        return;
+    const int room = least(GROWTH * lanczos->room, lanczos->most);
+    OstStatus status = OST_RESIZE(lanczos->ctx, &lanczos->alpha, room);
+    OST_THEN(OST_RESIZE(lanczos->ctx, &lanczos->weight, room));
+    OST_TRY(ost_agree(lanczos->ctx, status));
+    lanczos->room = room;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_lanczos_add(OstLanczos *lanczos, double alpha, double weight)
+{
+    if (lanczos->count >= lanczos->most)
+        return OST_SUCCESS;
+    if (lanczos->count == lanczos->room)
+        OST_TRY(grow(lanczos));
     lanczos->alpha[lanczos->count] = alpha;
     lanczos->weight[lanczos->count++] = weight;
+    return OST_SUCCESS;
 }
 
 static double beta(const OstLanczos *lanczos, int k)

@@ -90,7 +90,7 @@ static OstStatus iterate(OwnRun *work, double *u)
         if (goal->end != OST_END_REACHED)
             return OST_SUCCESS;
         if (run->runs == 0)
-            ost_lanczos_add(&run->lanczos, alpha, work->weight);
+            OST_TRY(ost_lanczos_add(&run->lanczos, alpha, work->weight));
         OST_TRY(find_norm(run, &norm));
         on = ost_goal_count(goal, norm, run->size * run->size * work->weight) && !work->blind;
         if (!run->preconditioner->factors)

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { MOST_STEPS = 200 };
+enum { MOST_STEPS = 2000 };
 
 /* Iterations go by the error; a residual that has fallen by as much and this ends them too. */
 static const double residual_beside = 1e-2;
@@ -61,26 +61,30 @@ static OstStatus apply(const OstCgSystem *system, const OstPreconditioner *preco
     return OST_SUCCESS;
 }
 
+/* The estimate may be small before the softest motions have shown: then its bound is not, and it is looked at again
+ * when it has halved. */
 static OstStatus accept(void *data, const double *u, double error, double *next)
 {
-    (void)data;
+    const OstGoal *goal = data;
     (void)u;
-    *next = error;
+    *next = goal->error.bound <= goal->stop->first * goal->error.size ? error : 0.5 * error;
     return OST_SUCCESS;
 }
 
 OstStatus ost_saddle_iterated_error(const OstCgSystem *system, const OstPreconditioner *preconditioner,
                                     const OstSaddle *saddle, double missing, const double *r_u, double *e_u, int *found)
 {
-    const OstErrorStop stop = {.ask = accept, .first = missing, .relative = 1};
+    OstGoal goal = {.ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1};
+    const OstErrorStop stop = {.ask = accept, .data = &goal, .first = missing, .relative = 1};
     OstSolveReport report = {0};
-    OstGoal goal = {.ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1, .stop = &stop};
+    goal.stop = &stop;
     OST_TRY(ost_saddle_goal(system->matrix, saddle, r_u, missing * residual_beside, &goal));
     const OstStatus status = ost_saddle_solve(system, preconditioner, saddle, r_u, e_u, &goal, &report);
     *found = status == OST_SUCCESS && goal.end != OST_END_PRECONDITIONER && isfinite(goal.error.estimate);
     if (status != OST_SUCCESS && status != OST_NOT_CONVERGED)
         return status;
-    const double left = *found && goal.error.size > 0.0 ? goal.error.estimate / goal.error.size : 0.0;
+    const double rest = goal.enough ? goal.error.estimate : goal.error.bound;
+    const double left = *found && goal.error.size > 0.0 ? rest / goal.error.size : 0.0;
     const double longer = sqrt(1.0 + left * left);
     for (size_t i = 0; i < 3 * (size_t)saddle->coupling->unknowns; i++)
         e_u[i] *= longer;

@@ -214,6 +214,7 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
     double before = 0.0, curvature, norm;
     int again;
     *broken = run->lost = 0;
+    ost_goal_begin_pass(goal);
     OST_TRY(renew(run, 1));
     for (int first = 1;; first = 0) {
         OST_TRY(complete(run, &again));
@@ -232,7 +233,7 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
             return OST_SUCCESS;
         before = run->weight;
         if (run->passes == 0) /* a run of conjugate gradients; the passes that follow are others */
-            ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight);
+            OST_TRY(ost_lanczos_add(&run->lanczos, run->weight / curvature, run->weight));
         step(run, run->weight / curvature);
         OST_TRY(ost_saddle_find_norm(run, &norm));
         *broken = !(norm <= most);
@@ -277,6 +278,7 @@ static OstStatus run_pass(OstSaddleRun *run)
         memcpy(run->u, run->start.u, run->n * sizeof(double));
         memcpy(run->saddle->p, run->start.p, run->m * sizeof(double));
         OST_TRY(ost_saddle_find_residual(run));
+        ost_convergence_start(&goal->convergence, goal->norm); /* the rate so far is of another operator */
         OST_TRY(iterate(run, &broken));
         spare(run, &broken);
     }
@@ -298,10 +300,21 @@ static OstStatus find_limit(OstSaddleRun *run)
     return OST_SUCCESS;
 }
 
+/* Passes from residuals in twice the precision gain nothing: what else rounds in them is the reason, and is no part of
+ * the limit. Not while there is another strategy, which may round less. */
+static void blame_passes(const OstSaddleRun *run)
+{
+    OstGoal *goal = run->goal;
+    const int stalls = goal->end == OST_END_REACHED && !run->lost && goal->iterations < goal->most_iterations;
+    if (stalls && goal->compensated && goal->patience == 0)
+        goal->limit = fmax(goal->limit, goal->norm);
+}
+
 static OstStatus explain_end(OstSaddleRun *run)
 {
     OstGoal *goal = run->goal;
     OST_TRY(find_limit(run));
+    blame_passes(run);
     if (run->lost && goal->end == OST_END_REACHED && !ost_goal_at_limit(goal)) {
         goal->end = OST_END_PRECONDITIONER;
         snprintf(goal->words, sizeof goal->words,
@@ -320,7 +333,7 @@ static OstStatus look_at_residual(OstSaddleRun *run)
     if (goal->norm <= goal->target || goal->enough)
         return OST_SUCCESS;
     OST_TRY(find_limit(run));
-    const int compensates = run->lost || goal->norm <= compensated_below * goal->limit;
+    const int compensates = run->lost || goal->stagnates || goal->norm <= compensated_below * goal->limit;
     if (goal->compensated || !compensates)
         return OST_SUCCESS;
     goal->compensated = 1;
@@ -336,6 +349,18 @@ static OstStatus keep_better(OstSaddleRun *run, int was_at_limit)
     memcpy(run->u, run->start.u, run->n * sizeof(double));
     memcpy(run->saddle->p, run->start.p, run->m * sizeof(double));
     return look_at_residual(run);
+}
+
+/* A preconditioner that fails may leave what the next strategy could not begin with. */
+static OstStatus leave(OstSaddleRun *run)
+{
+    OstGoal *goal = run->goal;
+    OST_TRY(explain_end(run));
+    if (goal->end != OST_END_PRECONDITIONER || goal->norm <= goal->start)
+        return OST_SUCCESS;
+    memset(run->u, 0, run->n * sizeof(double));
+    memset(run->saddle->p, 0, run->m * sizeof(double));
+    return ost_saddle_find_residual(run);
 }
 
 static OstStatus run_passes(OstSaddleRun *run)
@@ -356,11 +381,13 @@ static OstStatus run_passes(OstSaddleRun *run)
         OST_TRY(keep_better(run, at_limit));
         const int gains = goal->norm < least_gain * run->start_norm || run->begun < least_gain * least_gain * begun;
         begun = run->begun;
+        if (run->lost && !gains && run->preconditioner->precise)
+            run->beyond *= beyond; /* its eigenvalues are as large as that */
         at_limit = ost_goal_at_limit(goal);
         stalls = gains ? 0 : at_limit ? MOST_STALLS : stalls + 1;
     }
     if (goal->norm > goal->target && !goal->enough)
-        return explain_end(run);
+        return leave(run);
     goal->end = OST_END_REACHED;
     return OST_SUCCESS;
 }

@@ -59,7 +59,7 @@ static OstStatus count_step(Aztec *aztec, double *norm)
     if (aztec->steps == 0)
         return OST_SUCCESS;
     if (run->runs == 0)
-        ost_lanczos_add(&run->lanczos, aztec->weight / sums[1], aztec->weight);
+        OST_TRY(ost_lanczos_add(&run->lanczos, aztec->weight / sums[1], aztec->weight));
     ost_goal_count(aztec->goal, *norm, run->size * run->size * aztec->weight);
     return OST_SUCCESS;
 }
@@ -73,7 +73,7 @@ static OstStatus next_step(Aztec *aztec, double *z)
     OST_TRY(count_step(aztec, &norm));
     if (aztec->steps > 0)
         OST_TRY(ost_cg_judge_error(run, aztec->solution, goal));
-    aztec->stopped = norm <= goal->target || goal->enough || goal->end != OST_END_REACHED ||
+    aztec->stopped = norm <= goal->target || goal->enough || goal->stagnates || goal->end != OST_END_REACHED ||
                      goal->iterations >= goal->most_iterations;
     if (aztec->stopped)
         return OST_SUCCESS;
