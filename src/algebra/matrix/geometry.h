@@ -9,12 +9,12 @@
  * `owner`: then they are released once a hierarchy has taken what it needs, and made again for the next one. */
 typedef struct OstSolverGeometry {
     const double *coordinates; /* rows × 3 */
-    const double *moved; /* rows × 3: where the rows are now, which the modes are of; NULL: at their coordinates */
-    const double *metric;      /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
-                                  R^T diag(sqrt(E_min/E_k)) R; or NULL for the Euclidean metric */
-    const double *modes; /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
-                            on the unconstrained directions). The plain method takes NULL for three translations, the
-                            direct method uses nothing of this */
+    const double *moved;  /* rows × 3: where the rows are now, which the modes are of; NULL: at their coordinates */
+    const double *metric; /* rows × 6 (11 22 33 12 23 31): the material metric, mean over a node's tets of
+                             R^T diag(sqrt(E_min/E_k)) R; or NULL for the Euclidean metric */
+    const double *modes;  /* near-null space: 6 columns of 3 × rows numbers, column-major (rigid body modes, projected
+                             on the unconstrained directions). The plain method takes NULL for three translations, the
+                             direct method uses nothing of this */
     const struct OstCoarseSpace *coarse; /* METRIC to TWO_LEVEL: a coarser discretisation for corrections, or NULL */
     const OstSolverFacts *facts;         /* for the plan, or NULL */
     void *owner;                         /* of the arrays; NULL: they stay */
