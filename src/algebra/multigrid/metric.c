@@ -155,13 +155,14 @@ static OstStatus find_length(const OstMetricGraph *graph, const OstSolverFacts *
     return OST_SUCCESS;
 }
 
-static void set_options_of_aggregates(OstSolverOptions *options)
+static void set_options_of_aggregates(OstSolverOptions *options, int locks)
 {
     if (!(options->given & OST_GIVEN_AGGREGATE) && options->aggregate_nodes > quadratic_aggregate)
         options->aggregate_nodes = quadratic_aggregate;
     options->own_blocks = options->aggregate_nodes <= largest_block;
-    options->precise *= 2; /* the finest level has the softest motions */
-    options->columns = options->method != OST_METHOD_TWO_LEVEL ? 2 : 0;
+    if (locks)
+        options->precise *= 2; /* the finest level has the softest motions */
+    options->columns = locks && options->method != OST_METHOD_TWO_LEVEL ? 2 : 0;
     if (options->method != OST_METHOD_STRONG && !(options->given & OST_GIVEN_DEGREE))
         options->smoother_degree += LOCKED_MORE_DEGREE;
 }
@@ -175,19 +176,25 @@ static OstStatus has_columns(const OstMetricGraph *graph, int *has)
     return OST_SUCCESS;
 }
 
-/* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough. */
+/* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough: a tube with E3 x 1e6
+ * near the border, along its axes, takes 415 iterations with STRONG over aggregates; over vertices that is left, after
+ * 854 of all strategies. */
 static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts,
-                                   Correction *correction)
+                                   Correction *correction, int *locks)
 {
     static const char *const name[] = {"linear tets", "vertices that also turn", "aggregates of quadratic tets' nodes"};
+    const OstMethod method = metric->options.method;
     double misalignment, length;
     int is_plate = 0;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
     OST_TRY(find_length(graph, facts, &length));
-    const int crosses = misalignment > ost_metric_misaligned, locks = length > longest;
-    const int turns = crosses || metric->options.method != OST_METHOD_METRIC;
-    OST_TRY(crosses && locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
-    *correction = locks && (is_plate || !crosses) ? AGGREGATES : turns ? TURNING_VERTICES : LINEAR_TETS;
+    const int crosses = misalignment > ost_metric_misaligned;
+    *locks = length > longest;
+    OST_TRY(crosses && *locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
+    if (is_plate || (!crosses && (*locks || method == OST_METHOD_STRONG)))
+        *correction = AGGREGATES;
+    else
+        *correction = crosses || method == OST_METHOD_TWO_LEVEL ? TURNING_VERTICES : LINEAR_TETS;
     ost_log(metric->ctx, OST_LOG_VERBOSE,
             "solver: quadratic tets over %s: edges cross the stiff directions by %.2g (along them: 1), and are %.2g "
             "times as long as the body is thick",
@@ -226,15 +233,16 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
 {
     OstMetricGraph *graph = NULL;
     Correction correction = LINEAR_TETS;
+    int locks = 0;
     OstStatus status;
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
-    OST_TRY_DONE(choose_correction(metric, graph, geometry->facts, &correction));
+    OST_TRY_DONE(choose_correction(metric, graph, geometry->facts, &correction, &locks));
     if (correction == LINEAR_TETS) {
         OST_TRY_DONE(build_over_linear(metric, geometry, graph, levels, quadratic));
     } else if (correction == TURNING_VERTICES) {
         OST_TRY_DONE(build_over_vertices(metric, geometry, &graph, levels));
     } else {
-        set_options_of_aggregates(&metric->options);
+        set_options_of_aggregates(&metric->options, locks);
         OST_TRY_DONE(build_levels(metric, metric->matrix, metric->scaling, geometry, &graph, NULL, levels));
     }
 done:
