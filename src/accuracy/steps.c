@@ -13,7 +13,7 @@
 /* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take one
  * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
 static const double settled = 0.15;
-enum { MOST_TO_SETTLE = 20 };
+enum { LEAST_TO_SETTLE = 2, MOST_TO_SETTLE = 20 }; /* the first step of a thin plate was shorter than the next eight */
 
 OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps)
 {
@@ -250,7 +250,7 @@ OstStatus ost_steps_settle(OstSteps *steps)
 {
     double length = 0.0, share = 1.0;
     int ended = 0;
-    for (int step = 0; step < MOST_TO_SETTLE && share > settled; step++) {
+    for (int step = 0; step < MOST_TO_SETTLE && (step < LEAST_TO_SETTLE || share > settled); step++) {
         OST_TRY(turn_rows(steps, length));
         if (!(steps->weight > 0.0))
             break;
