@@ -231,31 +231,12 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
     return OST_SUCCESS;
 }
 
-/* A step that is to be the last needs no product: it is taken as long as the one before. */
-static OstStatus end_rows(OstSteps *steps, double length, int *ended)
-{
-    double sums[2] = {0.0};
-    for (size_t i = 0; i < steps->rows; i++) {
-        sums[0] += steps->p.rows[i] * steps->p.rows[i];
-        sums[1] += steps->e.rows[i] * steps->e.rows[i];
-    }
-    OST_TRY(ost_sum(steps->stiffness->problem->ctx, 2, sums));
-    *ended = length > 0.0 && length * length * sums[0] <= settled * settled * sums[1];
-    for (size_t i = 0; i < steps->rows && *ended; i++)
-        steps->e.rows[i] += length * steps->p.rows[i];
-    return OST_SUCCESS;
-}
-
 OstStatus ost_steps_settle(OstSteps *steps)
 {
     double length = 0.0, share = 1.0;
-    int ended = 0;
     for (int step = 0; step < MOST_TO_SETTLE && (step < LEAST_TO_SETTLE || share > settled); step++) {
         OST_TRY(turn_rows(steps, length));
         if (!(steps->weight > 0.0))
-            break;
-        OST_TRY(end_rows(steps, length, &ended));
-        if (ended)
             break;
         OST_TRY(go_on_rows(steps, &length, &share));
     }
