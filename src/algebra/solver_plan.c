@@ -24,7 +24,6 @@ static const struct {
     int more_degree;
 } smaller_above[2] = {{0.495, 10.0, 1}, {0.45, 15.0, 0}};
 
-static const double of_vertices = 0.125;         /* of the bytes of the whole matrix's factors */
 static const double uneven = 1e3, sliver = 1e-2; /* ratio of moduli; quality of a tet */
 
 static void say(OstSolverPlan *plan, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -64,24 +63,31 @@ static void plan_around_memory(const OstSolverFacts *facts, OstSolverPlan *plan)
         plan->options.factor_memory > 0.0 ? "allowed" : "free");
 }
 
-/* Is a factorisation quicker than multigrid? Asked of quadratic tets, of which a hierarchy costs more than of linear
- * ones; with memory to spare, as the rule for it is a rough one. Factors of the vertices' matrix are an eighth. */
+/* With memory to spare, as the rule for it is a rough one. */
+static int has_room(const OstSolverFacts *facts, const OstSolverOptions *options, double unknowns)
+{
+    const double allowed = allowed_memory(options, facts);
+    return !(allowed > 0.0) || 2.0 * ost_solver_factor_bytes((OstGlobal)unknowns) <= allowed;
+}
+
+/* Is a factorisation, of all unknowns or of the vertices', quicker than multigrid? Asked of quadratic tets, of which a
+ * hierarchy costs more than of linear ones. */
 static OstMethod quickest(const OstSolverFacts *facts, const OstSolverOptions *options)
 {
-    const double allowed = allowed_memory(options, facts), bytes = 2.0 * ost_solver_factor_bytes(facts->unknowns);
     const double multigrid = ost_solver_multigrid_seconds(facts), factors = ost_solver_factor_seconds(facts);
     const double two_level = ost_solver_two_level_seconds(facts);
     if (!(facts->thickness > 0.0) || facts->repeated)
         return OST_METHOD_METRIC;
-    if ((!(allowed > 0.0) || bytes <= allowed) && factors < fmin(multigrid, two_level))
+    if (factors < fmin(multigrid, two_level) && has_room(facts, options, (double)facts->unknowns))
         return OST_METHOD_DIRECT;
-    return (!(allowed > 0.0) || of_vertices * bytes <= allowed) && two_level < multigrid ? OST_METHOD_TWO_LEVEL
-                                                                                         : OST_METHOD_METRIC;
+    return two_level < multigrid && has_room(facts, options, ost_solver_vertex_unknowns(facts)) ? OST_METHOD_TWO_LEVEL
+                                                                                                : OST_METHOD_METRIC;
 }
 
 static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *plan)
 {
     const long long unknowns = (long long)facts->unknowns;
+    const OstMethod quick = fits ? quickest(facts, &plan->options) : OST_METHOD_METRIC;
     if (plan->options.method != OST_METHOD_AUTO) {
         plan->first = plan->options.method;
         say(plan, "the case asks for it");
@@ -90,13 +96,13 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
     } else if (facts->unknowns < direct_below) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
-    } else if (fits && quickest(facts, &plan->options) == OST_METHOD_TWO_LEVEL) {
+    } else if (quick == OST_METHOD_TWO_LEVEL) {
         plan->first = OST_METHOD_TWO_LEVEL;
         say(plan,
             "%lld unknowns of quadratic tets whose edges cross the stiff directions by %.3g (along them: 1): over "
             "vertices whose matrix is factored about %.2g s, multigrid %.2g s",
             unknowns, facts->misalignment, ost_solver_two_level_seconds(facts), ost_solver_multigrid_seconds(facts));
-    } else if (fits && quickest(facts, &plan->options) == OST_METHOD_DIRECT) {
+    } else if (quick == OST_METHOD_DIRECT) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns of quadratic tets, %.2g nodes across: factoring takes about %.2g s, multigrid %.2g s",
             unknowns, facts->thickness, ost_solver_factor_seconds(facts), ost_solver_multigrid_seconds(facts));

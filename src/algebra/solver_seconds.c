@@ -21,8 +21,13 @@ typedef struct Rate {
 static const Rate over_linear = {3e-6, 4e-7, 18.0, 1.3}, over_vertices = {6.5e-6, 4.8e-7, 13.0, 0.8},
                   over_factors = {5e-6, 9e-7, 20.0, 0.0};
 
-/* Of the unknowns and of the fronts' work that the quadratic tets have, their vertices have so much. */
+/* Vertices that turn have so many unknowns, and their factors' fronts so much work, for one of the quadratic tets. */
 static const double of_unknowns = 0.3, of_fronts = 0.17;
+
+double ost_solver_vertex_unknowns(const OstSolverFacts *facts)
+{
+    return of_unknowns * (double)facts->unknowns;
+}
 
 static const double early = 0.25;              /* of the iterations, where the mesh's error ends them */
 static const double usual = 0.45, power = 0.5; /* Poisson's ratio from which on iterations grow, and how */
@@ -56,6 +61,6 @@ double ost_solver_two_level_seconds(const OstSolverFacts *facts)
     const double unknowns = (double)facts->unknowns;
     if (!ost_solver_is_over_vertices(facts))
         return INFINITY;
-    return iterated(facts, &over_factors) + entry_second * of_unknowns * unknowns +
+    return iterated(facts, &over_factors) + entry_second * ost_solver_vertex_unknowns(facts) +
            of_fronts * front_second * pow(unknowns * facts->thickness, 1.5);
 }

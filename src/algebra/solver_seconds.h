@@ -7,6 +7,9 @@
 /* Local. Do quadratic tets of METRIC go over vertices that turn, as edges cross the stiff directions? */
 int ost_solver_is_over_vertices(const OstSolverFacts *facts);
 
+/* Local. Unknowns of the level of those vertices. */
+double ost_solver_vertex_unknowns(const OstSolverFacts *facts);
+
 /* Local. Seconds that quadratic tets take, setup and solve, by a factorisation, by multigrid, and over the vertices'
  * level, factored (infinite where that is not planned): rates of the machine on which docs/performance.md was made, of
  * which only the ratios matter. `facts` must have the thickness. */

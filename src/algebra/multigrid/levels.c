@@ -31,9 +31,9 @@ static const double unchanged_shortening = 32.0, fewest_nodes = 10.0;
 /* A coarse level's aggregates have at least this share of the blocks in its rows, up to so many nodes. Where aggregates
  * of the option's 8 nodes have 60 neighbours, as in a solid body, the next level is nearly full: with a third of 60 the
  * iterations are the same and its product and prolongator a quarter of the work. Along a wall of one aggregate there
- * are 12 to 20 neighbours, and larger aggregates would cost iterations. So they do below the aggregates of quadratic
- * tets whose edges cross the stiff directions, which have fewer: a bracket with E3 x 1000 takes 59 iterations with up
- * to 27, 38 with 10. With 8, a solid gear of 224,000 unknowns takes longer for the same number. */
+ * are 12 to 20 neighbours, and larger aggregates would cost iterations. So they do below quadratic tets that are
+ * corrected by aggregates of their nodes or by their vertices: a bracket with E3 x 1000 takes 59 and 65 iterations with
+ * up to 27, 38 and 48 with 10. */
 static const double row_share = 1.0 / 3.0, most_coarse_nodes = 27.0, most_below_quadratic = 10.0;
 
 /* The columns of a plate of quadratic tets are nodes of a flat mesh, whose factors are small: they are not coarsened
@@ -211,20 +211,21 @@ done:
     return status;
 }
 
-/* Nodes one by one, as the rows of the vertices' prolongator have columns of their own. */
+/* Blocks of one node each, for the Galerkin product: rows of the vertices' prolongator share no columns. */
 static OstStatus list_nodes(OstContext *ctx, OstLocal nodes, OstSmootherBlocks *each)
 {
     OST_TRY(OST_NEW(ctx, &each->node_start, nodes + 1));
     OST_TRY(OST_NEW(ctx, &each->node, nodes));
     each->count = nodes;
-    for (OstLocal i = 0; i < nodes; i++)
-        each->node[i] = each->node_start[i + 1] = i;
-    for (OstLocal i = 0; i < nodes; i++)
-        each->node_start[i + 1]++;
+    for (OstLocal i = 0; i < nodes; i++) {
+        each->node[i] = i;
+        each->node_start[i + 1] = i + 1;
+    }
     return OST_SUCCESS;
 }
 
-/* Rotations that are alike everywhere move nothing: their energy must not be 0 where the level is factored. */
+/* Vertices that all turn alike, and are not displaced, move no node: the level's matrix is singular there, and could
+ * not be factored. */
 static void hold_rotations(OstDoubleMatrix *coarse)
 {
     for (OstLocal v = 0; v < coarse->rows; v++) {

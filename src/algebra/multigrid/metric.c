@@ -176,9 +176,9 @@ static OstStatus has_columns(const OstMetricGraph *graph, int *has)
     return OST_SUCCESS;
 }
 
-/* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough: a tube with E3 x 1e6
- * near the border, along its axes, takes 415 iterations with STRONG over aggregates; over vertices that is left, after
- * 854 of all strategies. */
+/* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough. Along the stiff
+ * directions STRONG goes over aggregates: a tube with E3 x 1e6 near the border of stability takes 415 iterations with
+ * it; over vertices STRONG does not converge there. */
 static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts,
                                    Correction *correction, int *locks)
 {
