@@ -185,7 +185,7 @@ static void linear_space(const OstEffectFacts *f, OstEffectState *state)
         off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
     else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
-           "quadratic tets: multigrid continues on their vertices, those of linear tets or such as also turn");
+           "quadratic tets: multigrid continues on their linear tets, or on their vertices");
     else
         off(state, f->quadratic ? "the planned solver is not Orthostat's multigrid" : "the tets are linear already");
 }
