@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take one
+/* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take two
  * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
 static const double settled = 0.15;
-enum { LEAST_TO_SETTLE = 2, MOST_TO_SETTLE = 20 }; /* the first step of a thin plate was shorter than the next eight */
+enum { LEAST_TO_SETTLE = 2, MOST_TO_SETTLE = 20 }; /* a thin plate's first step was shorter than its next seven */
 
 OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps)
 {
