@@ -317,7 +317,8 @@ static void ranks_agree(void **state)
         ctx = world;
         assert_close(found, expected, 1e-6 * expected);
         assert_true(same_corner != 0.0);
-        assert_close(corner, same_corner, 1e-6 * fabs(same_corner));
+        /* a product of two answers in the added functions, in single precision: its sums depend on their order */
+        assert_close(corner, same_corner, 1e-5 * fabs(same_corner));
     }
 }
 
