@@ -177,7 +177,9 @@ static OstStatus smooth_prolongator(const Coarsening *work, const OstTentative *
     return ost_tentative_smooth(tentative, levels->coarsest, *by, &levels->prolongator[l]);
 }
 
-/* Adds the level below the coarsest so far. The Galerkin product is the peak of memory: all that can is freed before.
+/* Adds the level below the coarsest so far. Below vertices that turn, aggregates are the smoother's blocks too: with
+ * others the quadratic tets of two brackets and a gear, ratio 1000, take 49, 35 and 26 iterations in place of 41, 28
+ * and 23; below linear tets it gains nothing. The Galerkin product is the peak of memory: all that can is freed before.
  */
 static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, OstGlobal unknowns)
 {
@@ -189,7 +191,8 @@ static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, Os
     OstStatus status = ost_tentative_create(levels->coarsest, aggregates, *work->modes, work->by_columns, &tentative);
     if (status != OST_SUCCESS)
         goto done;
-    OST_TRY_DONE(ost_smoother_create(levels->matrix[l], levels->graph[l], &work->options, &levels->smoother[l]));
+    OST_TRY_DONE(ost_smoother_create_of(levels->matrix[l], levels->graph[l], work->has_vertices ? aggregates : NULL,
+                                        &work->options, &levels->smoother[l]));
     OST_TRY_DONE(smooth_prolongator(work, tentative, aggregates, &by));
     ost_metric_graph_destroy(&levels->graph[l]);
     const OstGlobal first = tentative->first_coarse;
