@@ -178,7 +178,7 @@ static OstStatus smooth_prolongator(const Coarsening *work, const OstTentative *
 }
 
 /* Adds the level below the coarsest so far. Below vertices that turn, aggregates are the smoother's blocks too: with
- * others the quadratic tets of two brackets and a gear, ratio 1000, take 49, 35 and 26 iterations in place of 41, 28
+ * others the quadratic tets of two brackets and a pin, ratio 1000, take 49, 35 and 26 iterations in place of 41, 28
  * and 23; below linear tets it gains nothing. The Galerkin product is the peak of memory: all that can is freed before.
  */
 static OstStatus add_level(Coarsening *work, const OstAggregates *aggregates, OstGlobal unknowns)
