@@ -61,6 +61,7 @@ typedef struct OstSolverFacts {
     double anisotropy;   /* largest ratio of Young's moduli at one place */
     double poisson;      /* largest over the materials, of a stable family that resists a change of volume as much */
     double contrast;     /* largest over smallest Young's modulus of the body */
+    double jump;         /* the same of the materials' smallest moduli: how rigid one is in another */
     double quality;      /* of the worst tet (ost_tet_quality: 1 regular, 0 flat) */
     double free_memory;  /* bytes, over the machines of all ranks */
     double thickness;    /* of quadratic tets: nodes across the body, by its volume over its surface; else 0 */

@@ -113,10 +113,14 @@ void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFact
 /* Local. The effect of a load, or OST_EFFECT_END if it depends on the mesh. */
 OstEffect ost_load_effect(const OstCase *c, const OstLoad *load);
 
-/* Local. Adds a material to the facts that the solver's plan needs: ratios of moduli, and Poisson's ratio. `softest`
- * and `stiffest` are the smallest and largest Young's modulus so far, 0 to begin with. */
-void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
-                        OstSolverFacts *facts);
+/* Of all materials: the smallest Young's modulus, the largest smallest one of a material, and the largest; 0 to begin
+ * with. */
+typedef struct OstModuli {
+    double softest, most_rigid, stiffest;
+} OstModuli;
+
+/* Local. Adds a material to the facts that the solver's plan needs: ratios of moduli, and Poisson's ratio. */
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, OstModuli *moduli, OstSolverFacts *facts);
 
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);

@@ -50,8 +50,7 @@ static const char *what_varying_axes_follow(OstAxesKind kind)
     }
 }
 
-void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softest, double *stiffest,
-                        OstSolverFacts *facts)
+void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, OstModuli *moduli, OstSolverFacts *facts)
 {
     const double *e = k->youngs_modulus;
     const double least = fmin(e[0], fmin(e[1], e[2]));
@@ -59,10 +58,12 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, double *softes
     double eigenvalues[3] = {1.0, 1.0, 1.0};
     if (ost_orthotropic_eigenvalues(ctx, k, eigenvalues) == OST_SUCCESS)
         facts->poisson = fmax(facts->poisson, ost_equivalent_poisson(eigenvalues[0]));
-    *softest = *softest > 0.0 ? fmin(*softest, least) : least;
-    *stiffest = fmax(*stiffest, most);
+    moduli->softest = moduli->softest > 0.0 ? fmin(moduli->softest, least) : least;
+    moduli->most_rigid = fmax(moduli->most_rigid, least);
+    moduli->stiffest = fmax(moduli->stiffest, most);
     facts->anisotropy = fmax(facts->anisotropy, most / least);
-    facts->contrast = *stiffest / *softest;
+    facts->contrast = moduli->stiffest / moduli->softest;
+    facts->jump = moduli->most_rigid / moduli->softest;
 }
 
 static int is_eigenstrained(const OstCaseMaterial *stated)
@@ -119,19 +120,19 @@ static int is_in_use(const OstCase *c, const OstNames *regions, int entry)
 void ost_plan_materials(const OstCase *c, const OstPlanMesh *mesh, OstEffectFacts *facts, OstSolverFacts *solver)
 {
     const OstFileMaterials *file = mesh->regions ? mesh->materials : NULL;
-    double softest = 0.0, stiffest = 0.0;
+    OstModuli moduli = {0};
     for (int i = 0; i < c->material_count; i++) {
         const OstCaseMaterial *stated = &c->materials[i];
         if (!is_in_use(c, mesh->regions, i))
             continue;
         add_material(c->ctx, stated->region, &stated->material, stated, facts);
-        ost_plan_add_facts(c->ctx, &stated->material.constants, &softest, &stiffest, solver);
+        ost_plan_add_facts(c->ctx, &stated->material.constants, &moduli, solver);
     }
     for (int r = 0; file && r < file->count; r++) {
         const OstMaterial *material = &file->material[r];
         if (ost_case_material_of(c, mesh->regions->name[r]))
             continue;
         add_material(c->ctx, material->name, material, NULL, facts);
-        ost_plan_add_facts(c->ctx, &material->constants, &softest, &stiffest, solver);
+        ost_plan_add_facts(c->ctx, &material->constants, &moduli, solver);
     }
 }

@@ -132,7 +132,8 @@ static OstStatus make_timed(const OstProblemParts *parts, OstProblem *problem)
 static OstStatus add_material_facts(const OstMaterialField *field, const OstMesh *mesh, OstSolverFacts *facts)
 {
     OstContext *ctx = mesh->ctx;
-    double softest = 0.0, stiffest = 0.0, *least = NULL, *most = NULL;
+    double *least = NULL, *most = NULL;
+    OstModuli moduli = {0};
     const int regions = field->region_count;
     OstStatus status = OST_NEW(ctx, &least, regions);
     OST_THEN(OST_NEW(ctx, &most, regions));
@@ -158,7 +159,7 @@ static OstStatus add_material_facts(const OstMaterialField *field, const OstMesh
                 constants.youngs_modulus[k] *= scale;
                 constants.shear_modulus[k] *= scale;
             }
-            ost_plan_add_facts(ctx, &constants, &softest, &stiffest, facts);
+            ost_plan_add_facts(ctx, &constants, &moduli, facts);
         }
 done:
     OST_FREE(least, most);

@@ -104,24 +104,36 @@ static double trace(const OstBlockMatrix *matrix, OstLocal row)
     return block[0] + block[4] + block[8];
 }
 
+/* How rigid a node is: unlike the trace, that of a material that is stiff in one direction is far below that of one
+ * which is stiff in all. It does not depend on axes. */
+static double rigidity(const OstBlockMatrix *matrix, OstLocal row)
+{
+    return cbrt(ost_determinant3(ost_block_matrix_diagonal(matrix, row)));
+}
+
+static int differ(double here, double there)
+{
+    return fmax(here, there) > apart * fmin(here, there);
+}
+
 /* A stiff inclusion in soft surroundings moves as a rigid body, at an energy far below that of its own parts. Its six
  * modes must lie in the coarse space whole: an aggregate that holds some of it and some of what is around cannot move
  * without straining it. Two inclusions with nothing but soft tets between them may have all nodes of a body: then no
  * two neighbours differ, but their coupling is far weaker than their own blocks. */
 static int are_apart(const OstBlockMatrix *matrix, OstLocal i, OstLocal k, double weakest_coupling)
 {
-    const double here = trace(matrix, i), there = trace(matrix, matrix->column[k]);
-    const double softer = fmin(here, there), least = weakest_coupling * softer;
+    const OstLocal j = matrix->column[k];
+    const double here = trace(matrix, i), there = trace(matrix, j), least = weakest_coupling * fmin(here, there);
     double room[9];
     const double *between = ost_block_matrix_block(matrix, i, k, room);
-    return fmax(here, there) > apart * softer || ost_dot(9, between, between) < least * least;
+    return differ(here, there) || differ(rigidity(matrix, i), rigidity(matrix, j)) ||
+           ost_dot(9, between, between) < least * least;
 }
 
 static OstStatus find_jump(const OstBlockMatrix *matrix, const OstSolverFacts *facts, const OstMetricGraph *graph,
                            double *jump)
 {
-    const double stated = facts && facts->anisotropy > 0.0 ? facts->contrast / facts->anisotropy : 1.0;
-    *jump = fmax(stated, 1.0);
+    *jump = facts ? fmax(facts->jump, 1.0) : 1.0;
     for (OstLocal i = 0; i < graph->nodes; i++)
         for (OstLocal k = graph->edge_start[i]; k < graph->edge_start[i + 1]; k++)
             *jump = fmax(*jump, trace(matrix, i) / trace(matrix, graph->neighbour[k]));

@@ -200,11 +200,13 @@ OstStatus ost_vertex_space_create(const OstCoarseSpace *space, const OstSolverGe
                                   const OstScaling *scaling, const OstScaling *linear, OstVertexSpace *vertices)
 {
     Making m = {.space = space, .geometry = geometry, .scaling = scaling, .linear = linear, .made = vertices};
+    OstSolverGeometry with_facts = *space->geometry;
+    with_facts.facts = geometry->facts;
     *vertices = (OstVertexSpace){.first = space->matrix->first_row};
     OstStatus status = place_vertices(&m);
     OST_THEN(measure_arms(&m));
     OST_THEN(make_prolongator(&m));
-    OST_THEN(ost_metric_graph_create(space->matrix, space->geometry, &vertices->graph));
+    OST_THEN(ost_metric_graph_create(space->matrix, &with_facts, &vertices->graph));
     OST_FREE(m.place, m.arm);
     if (status != OST_SUCCESS)
         ost_vertex_space_clear(vertices);
