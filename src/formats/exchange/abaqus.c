@@ -404,6 +404,11 @@ static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth)
     int found = 0;
     inp->lines = lines;
     OST_TRY(ost_lines_next(lines, &found));
+    if (found && depth == 0 && isdigit((unsigned char)lines->text[strspn(lines->text, " \t")]))
+        return OST_RAISE_LINE(lines,
+                              "begins with a number, and not with a keyword; is it of AVS? python3 -c \"import meshio; "
+                              "meshio.read('%s', file_format='avsucd').write('NEW.vtu')\" converts it",
+                              lines->path);
     for (; found; inp->lines = lines) {
         if (!ost_lines_take(lines, '*')) {
             OST_TRY(read_data_line(inp));
