@@ -171,6 +171,16 @@ static OstStatus read_cells(const OstYaml *yaml, const OstYamlNode *node, OstCas
     return ost_yaml_says(yaml, node, "mesh") ? OST_SUCCESS : ost_read_path(yaml, node, &axes->cells_file);
 }
 
+/* An angle that is a multiple of 5 degrees in radians, to four digits, is likely to be meant so. */
+static void warn_of_radians(const OstYaml *yaml, const OstYamlNode *node, double angle)
+{
+    const double meant = angle * 180.0 / M_PI, rounded = 5.0 * round(meant / 5.0);
+    if (fabs(angle) < 2.0 * M_PI && rounded != 0.0 && fabs(meant - rounded) < 5e-4 * fabs(rounded) &&
+        fabs(angle - round(angle)) > 1e-9)
+        ost_warn(yaml->ctx, "%s:%d: %g degrees are nearly none; %g degrees are %g in radians, and degrees are expected",
+                 yaml->path, ost_yaml_line(node), angle, rounded, angle);
+}
+
 /* {axis: [x, y, z], degrees: a}: the world's axes turned about a line. */
 static OstStatus read_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstAxesSpec *axes)
 {
@@ -180,6 +190,7 @@ static OstStatus read_rotation(const OstYaml *yaml, const OstYamlNode *node, Ost
     (void)c;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     OST_TRY(ost_yaml_number(yaml, keys[1].value, &degrees));
+    warn_of_radians(yaml, keys[1].value, degrees);
     const double half = degrees * M_PI / 360.0;
     const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
     const double quaternion[4] = {cos(half), sin(half) * axis[0] / length, sin(half) * axis[1] / length,

@@ -93,6 +93,10 @@ static OstStatus read_poissons(const OstYaml *yaml, const OstYamlNode *node, Sta
         [PLANE_AXIS] = {.name = "plane_axis"},
     };
     stated->poissons_form = POISSONS_NUMBER;
+    if (ost_yaml_is(yaml, node, OST_YAML_SEQUENCE))
+        return ost_yaml_raise(yaml, node,
+                              "programs differ in the order of the ratios; give them by name, as {nu12: 0.35, "
+                              "nu23: 0.4, nu31: 0.02}, or one number");
     if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
         return ost_yaml_number(yaml, node, &stated->nu);
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));

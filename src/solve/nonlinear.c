@@ -21,6 +21,9 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
     return ost_linear_strategy.prepare(analysis, before);
 }
 
+/* Solids do not strain so far; numbers in units that do not fit each other often do. */
+static const double odd_strain = 10.0;
+
 OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
 {
     OstLinearity largest;
@@ -38,6 +41,12 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
         problem->ctx, OST_LOG_VERBOSE,
         "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g: off by about %.2g (asked: %.2g)",
         largest.rotation, largest.strain, result->newton.linear_error, problem->accuracy);
+    if (largest.strain > odd_strain)
+        ost_warn(
+            problem->ctx,
+            "by linear theory the body strains by up to %.3g %%: do all numbers have the units of one set, as m, N, "
+            "Pa, kg/m3, m/s2, or mm, N, MPa, t/mm3, mm/s2 (1 GPa = 1e9 Pa = 1e3 MPa; 1 kg/m3 = 1e-12 t/mm3)?",
+            100.0 * largest.strain);
     return OST_SUCCESS;
 }
 

@@ -194,6 +194,8 @@ static void unstable_materials_are_refused_where_they_stand(void **state)
 
 static void constants_that_do_not_go_together_are_refused(void **state)
 {
+    assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: [0.1, 0.2, 0.3]"),
+                   "3:62: programs differ in the order of the ratios; give them by name...");
     assert_refused(MATERIAL("youngs_modulus: 1, poissons_ratio: {plane: 0.3}"),
                    "3:54: poissons_ratio {plane, plane_axis} needs youngs_modulus {plane, axis}, where the axis is e3");
     assert_refused(MATERIAL("youngs_modulus: [1, 1, 1], poissons_ratio: {nu12: 0.1, nu23: 0.1, nu31: 0.1}"),

@@ -2,6 +2,9 @@
 refines, merges and orients."""
 import json
 import os
+import re
+import subprocess
+import sys
 
 import meshio
 import numpy as np
@@ -257,11 +260,52 @@ def by_meshio(names=(), data=None):
 
 
 NUMBERS = FIRST.astype(int)
+for name in ("netgen:index", "su2:tag", "part_id", "mat_id", "MeshDomain"):
+    found, _ = by_meshio(data={name: NUMBERS + 1})
+    check(found == ["volume-1", "volume-2"], f"{name}: {found}")
+
+# The command for Netgen's meshes keeps their regions, boundaries and names, which meshio's .vtu has no room for.
+write(folder, "two.vol", """mesh3d
+dimension
+3
+surfaceelements
+2
+1 1 1 0 3 1 2 3
+2 2 2 0 3 3 4 5
+volumeelements
+2
+1 4 1 2 3 4
+2 4 2 3 4 5
+points
+5
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+1 1 1
+materials
+2
+1 wood
+2 knot
+bcnames
+2
+1 wall
+2 top
+endmesh
+""")
+said = run("mesh", "two.vol", folder=folder)
+command = re.search('python3 -c "([^"]*)"', said.errors)
+check(said.exit_code == 2 and command, said.errors)
+made = subprocess.run([sys.executable, "-c", command.group(1)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+check(made.returncode == 0, made.stdout)
+counts = inspect("two.msh")
+check([r["name"] for r in counts["regions"]] == ["wood", "knot"] and
+      {b["name"] for b in counts["boundaries"]} == {"wall", "top"}, str(counts))
 for names, data, regions, words in (
         (["a", "b"], None, {"a", "b"}, "the numbers 'a-b' of cells are taken for 2 of meshio's sets"),
         (["a-1", "b-2"], None, {"a-1", "b-2"}, "'a-1_b-2' of cells are taken for 2"),
         (["a-1", "b"], None, {"a", "1_b"}, "after each '-', or each '_'"),
-        ([], {"part_id": NUMBERS}, {"volume"}, None),
+        ([], {"cell_id": NUMBERS}, {"volume"}, None),
         ([], {"a_b#c": NUMBERS}, {"volume"}, None),
         (["a", "b"], {"material": NUMBERS}, {"volume-0", "volume-1"}, "regions are the numbers 'material' of cells")):
     found, said = by_meshio(names, data)

@@ -56,6 +56,8 @@ def main():
     compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8", "--accuracies", "-"], folder, KINDS[:2], ["--json", "-"])
     zero_loads(folder)
     overridden_materials(folder)
+    odd_units(folder)
+    radians(folder)
 
 
 # A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.
@@ -92,6 +94,25 @@ def overridden_materials(folder):
         ended = run("check", "two.yaml", folder=folder)
         check(ended.exit_code == 0 and ("two.yaml:2: the material of region 'block' is nowhere" in ended.errors) == warned,
               f"{regions}: {ended.errors}")
+
+
+# Of a cube of 1 m³ and 3 Pa, of which GPa are meant, 2 Pa are a large load and 200 Pa an odd one.
+def odd_units(folder):
+    for pressure, warned in ((2, False), (200, True)):
+        text = ZERO.replace("youngs_modulus: 1,", "youngs_modulus: 3,").replace("VALUE", str(pressure))
+        write(folder, "units.yaml", text)
+        ended = run("solve", "units.yaml", "--output", "units.vtkhdf", folder=folder)
+        check(("the units of one set" in ended.errors) == warned, f"{pressure}: {ended.errors}")
+
+
+def radians(folder):
+    turned = ZERO.replace("VALUE", "5").replace("youngs_modulus: 1,", "youngs_modulus: [1, 2, 3], axes: {rotation: {axis: "
+                                                "[0, 1, 0], degrees: ANGLE}},")
+    for angle, meant in (("0.2618", "15"), ("-1.5708", "-90"), ("15", None), ("0.5", None), ("0", None), ("1", None)):
+        write(folder, "turned.yaml", turned.replace("ANGLE", angle))
+        ended = run("check", "turned.yaml", folder=folder)
+        check(ended.exit_code == 0 and (f"{meant} degrees are {angle} in radians" in ended.errors) == (meant is not None) and
+              ("radians" in ended.errors) == (meant is not None), f"{angle}: {ended.errors}")
 
 
 main()

@@ -2,6 +2,7 @@
 #include "formats/exchange/abaqus.h"
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "formats/exchange/exchange.h"
 
 #include <ctype.h>
@@ -320,7 +321,7 @@ static OstStatus mark_section(OstInp *inp, const OstInpKeyword *keyword)
     OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, name, &set));
     inp->cells.set[set].is_region = 2;
     inp->sections = 1;
-    return OST_SUCCESS;
+    return ost_inp_oriented(inp, keyword);
 }
 
 static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int depth)
@@ -350,13 +351,21 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
                               name);
     if (strcmp(name, "SYSTEM") == 0)
         inp->block = OST_INP_SYSTEM;
+    if (strcmp(name, "TIE") == 0)
+        return ost_inp_begin_tie(inp, keyword);
+    if (strcmp(name, "COUPLING") == 0)
+        return ost_inp_coupling(inp, keyword);
+    if (strcmp(name, "ORIENTATION") == 0)
+        return ost_inp_begin_orientation(inp, keyword);
+    if (strcmp(name, "DISTRIBUTING") == 0)
+        ost_inp_distribute(inp);
     if (strcmp(name, "PART") == 0)
         return ost_inp_begin_part(inp, keyword);
     if (strcmp(name, "ENDPART") == 0)
         return ost_inp_end_part(inp);
     if (strcmp(name, "INSTANCE") == 0)
         return ost_inp_begin_instance(inp, keyword);
-    return strcmp(name, "ENDINSTANCE") == 0 ? ost_inp_end_instance(inp) : OST_SUCCESS;
+    return strcmp(name, "ENDINSTANCE") == 0 ? ost_inp_end_instance(inp) : ost_inp_pass(inp, keyword);
 }
 
 static OstStatus read_data_line(OstInp *inp)
@@ -375,6 +384,11 @@ static OstStatus read_data_line(OstInp *inp)
         return ost_inp_surface_line(inp);
     case OST_INP_INSTANCE:
         return ost_inp_instance_line(inp);
+    case OST_INP_TIE:
+        return ost_inp_tie_line(inp);
+    case OST_INP_ORIENTATION:
+        ost_inp_orientation_line(inp);
+        return OST_SUCCESS;
     case OST_INP_SYSTEM:
         return OST_RAISE_LINE(inp->lines,
                               "*SYSTEM turns or shifts the nodes after it, which is not read; write them in "
@@ -390,6 +404,11 @@ static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth)
     int found = 0;
     inp->lines = lines;
     OST_TRY(ost_lines_next(lines, &found));
+    if (found && depth == 0 && isdigit((unsigned char)lines->text[strspn(lines->text, " \t")]))
+        return OST_RAISE_LINE(lines,
+                              "begins with a number, and not with a keyword; is it of AVS? python3 -c \"import meshio; "
+                              "meshio.read('%s', file_format='avsucd').write('NEW.vtu')\" converts it",
+                              lines->path);
     for (; found; inp->lines = lines) {
         if (!ost_lines_take(lines, '*')) {
             OST_TRY(read_data_line(inp));
@@ -425,6 +444,7 @@ static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)
     OST_TRY(status);
     OST_TRY(ost_inp_end_parts(inp));
     choose_regions(inp);
+    ost_inp_warn_passed(inp);
     drop_quotes(&inp->cells);
     return ost_cells_finish(&inp->cells, chunk);
 }
@@ -436,6 +456,7 @@ OstStatus ost_abaqus_read(OstContext *ctx, const char *path, OstMeshChunk **chun
     inp.cells.same_names = same_names;
     OST_THEN(read_file(&inp, path, chunk));
     ost_inp_close_parts(&inp);
+    OST_FREE(inp.passed.word, inp.join, inp.orientation, inp.section);
     ost_cells_close(&inp.cells);
     return status;
 }

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_FORMATS_EXCHANGE_ABAQUS_H
 
 #include "formats/cells/cells.h"
+#include "formats/exchange/passed.h"
 #include "formats/serial/line_reader.h"
 
 /* What the data lines after a keyword hold. */
@@ -14,7 +15,9 @@ typedef enum {
     OST_INP_SET,
     OST_INP_SURFACE,
     OST_INP_INSTANCE,
-    OST_INP_SYSTEM
+    OST_INP_SYSTEM,
+    OST_INP_TIE,
+    OST_INP_ORIENTATION
 } OstInpBlock;
 
 enum { OST_INP_WORD = 128, OST_INP_PARAMETERS = 16 };
@@ -38,6 +41,25 @@ typedef struct OstInpInstance {
     int lines;
     double line[2][7];
 } OstInpInstance;
+
+/* What holds a surface: one that it is tied to, or a point. */
+typedef enum { OST_INP_TIED, OST_INP_RIGID, OST_INP_DISTRIBUTED } OstInpJoinKind;
+typedef struct OstInpJoin {
+    OstInpJoinKind kind;
+    char on[OST_INP_WORD], to[OST_INP_WORD];
+    double tolerance;
+} OstInpJoin;
+
+/* Material axes: two or three points of a system, and the turn about one of its axes; and the section that has them. */
+typedef struct OstInpOrientation {
+    char name[OST_INP_WORD];
+    int lines, is_plain, is_cylinder; /* is_plain: of a kind that is told */
+    double point[9], degrees;
+    int about;
+} OstInpOrientation;
+typedef struct OstInpSection {
+    char set[OST_INP_WORD], orientation[OST_INP_WORD];
+} OstInpSection;
 enum { OST_INP_OUTSIDE, OST_INP_PART, OST_INP_INSTANCE_OF };
 
 /* An .inp file while it is read. */
@@ -50,6 +72,7 @@ typedef struct OstInp {
     OstInpBlock block;
     int set;      /* the set that data lines fill, or -1 */
     int generate; /* do they state ranges? */
+    int by_line;  /* does a number follow each of its words? */
     OstCellKind kind;
     int filled; /* numbers of the present element that have been read: its own, then its nodes' */
     OstGlobal element[28];
@@ -65,6 +88,13 @@ typedef struct OstInp {
     int own_nodes;  /* has the assembly nodes of its own, such as reference points? */
     int sections;   /* *SOLID SECTION found? */
     OstGlobal left_out;
+    OstPassed passed;
+    int join_count;
+    OstInpJoin *join;
+    double tolerance; /* of the present *TIE */
+    int orientation_count, section_count;
+    OstInpOrientation *orientation;
+    OstInpSection *section;
 } OstInp;
 
 /* Local. Parses the keyword at the reader's line, with the lines that it goes on in. */
@@ -97,5 +127,18 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
 OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword);
 OstStatus ost_inp_set_line(OstInp *inp);
 OstStatus ost_inp_surface_line(OstInp *inp);
+
+/* Local. What is passed over: counts a keyword that changes how the body moves; *TIE and its lines, *COUPLING and the
+ * *DISTRIBUTING after it, *ORIENTATION and the sections that name one; warns of all of them, once everything is read.
+ */
+OstStatus ost_inp_pass(OstInp *inp, const OstInpKeyword *keyword);
+OstStatus ost_inp_begin_tie(OstInp *inp, const OstInpKeyword *keyword);
+OstStatus ost_inp_tie_line(OstInp *inp);
+OstStatus ost_inp_coupling(OstInp *inp, const OstInpKeyword *keyword);
+void ost_inp_distribute(OstInp *inp);
+OstStatus ost_inp_begin_orientation(OstInp *inp, const OstInpKeyword *keyword);
+void ost_inp_orientation_line(OstInp *inp);
+OstStatus ost_inp_oriented(OstInp *inp, const OstInpKeyword *keyword);
+void ost_inp_warn_passed(OstInp *inp);
 
 #endif

@@ -49,6 +49,7 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
                               keyword->name);
     inp->block = OST_INP_SET;
     inp->generate = ost_inp_value(keyword, "GENERATE") != NULL;
+    inp->by_line = 0;
     OST_TRY(ost_inp_set_instance(inp, keyword));
     OST_TRY(ost_cells_set(&inp->cells, kind, name, &inp->set));
     /* CAE keeps the tets of a surface in sets of its own. */
@@ -97,6 +98,8 @@ OstStatus ost_inp_set_line(OstInp *inp)
     while (!ost_lines_ended(inp->lines)) {
         ost_inp_word(inp->lines, word);
         OST_TRY(put_word(inp, word));
+        if (inp->by_line)
+            break;
     }
     return OST_SUCCESS;
 }
@@ -112,6 +115,7 @@ OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
         return OST_SUCCESS; /* one that is no part of the mesh */
     inp->block = of_nodes ? OST_INP_SET : OST_INP_SURFACE;
     inp->generate = 0;
+    inp->by_line = 1; /* of a surface of nodes: their set, or a node, and its area */
     inp->of = -1;
     return ost_cells_set(&inp->cells, of_nodes ? OST_SET_OF_NODES : OST_SET_OF_FACES, name, &inp->set);
 }

@@ -4,6 +4,7 @@
 #include "formats/exchange/exchange.h"
 #include "formats/msh/msh.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <string.h>
 #include <strings.h>
@@ -195,6 +196,17 @@ static void next_word(OstMshCursor *cursor, char word[LONGEST_WORD])
     word[length] = '\0';
 }
 
+/* Other programs' files of the same ending, by their first word. */
+static const char *way_of_another(const char *word)
+{
+    if (strcasecmp(word, "MFEM") == 0)
+        return "; MFEM's meshes are not read: mesh.PrintVTU(\"NEW\") in MFEM writes a .vtu";
+    if (isdigit((unsigned char)word[0]))
+        return "; is it Netgen's neutral format? Export it there as Gmsh2, with the ending .msh";
+    return strcasecmp(word, "BEGIN") == 0 ? "; is it of GetFEM? mesh.export_to_vtu(\"NEW.vtu\") there writes a .vtu"
+                                          : "";
+}
+
 static OstStatus read_words(Medit *medit)
 {
     char word[LONGEST_WORD];
@@ -202,7 +214,7 @@ static OstStatus read_words(Medit *medit)
     int format = 0;
     next_word(cursor, word);
     if (strncasecmp(word, "MeshVersionFormatted", 20) != 0)
-        return OST_RAISE_MSH(cursor, "'%s' found, expected MeshVersionFormatted", word);
+        return OST_RAISE_MSH(cursor, "'%s' found, expected MeshVersionFormatted%s", word, way_of_another(word));
     OST_TRY(ost_msh_int(cursor, "the version of the format", &format));
     while (cursor->next < cursor->end) {
         next_word(cursor, word);

@@ -5,6 +5,7 @@
 #include "formats/exchange/exchange.h"
 #include "formats/exchange/nastran_systems.h"
 #include "formats/exchange/numbers.h"
+#include "formats/exchange/passed.h"
 #include "formats/msh/cursor.h"
 
 #include <ctype.h>
@@ -19,12 +20,18 @@
  * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
  * boundary, and so does each set of constraints. */
 
-enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, MOST_NODES = 20, MOST_INCLUDES = 8 };
+enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, MOST_NODES = 20, MOST_INCLUDES = 8, MOST_RIGID = 100 };
 
 typedef struct Placed {
     OstGlobal label, system;
     double x[3];
 } Placed;
+
+/* An RBE2 or RBE3: the point whose motion, or mean motion, its set of nodes has. */
+typedef struct Rigid {
+    int set, in_the_mean;
+    OstGlobal point;
+} Rigid;
 
 typedef struct Nastran {
     OstMshCursor cursor;
@@ -39,6 +46,9 @@ typedef struct Nastran {
     int depth;                /* of INCLUDE */
     OstGlobal default_system; /* of GRDSET */
     OstLocal in_default;      /* nodes that state none, so far */
+    OstPassed passed;
+    int rigid_count;
+    Rigid rigid[MOST_RIGID];
 } Nastran;
 
 /* --- cards --- */
@@ -248,28 +258,110 @@ static OstStatus constraint_set(Nastran *nastran, int *set)
     return ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, set);
 }
 
-/* SPC1: set, components, then nodes, or a node, THRU and another. */
-static OstStatus read_constraints(Nastran *nastran)
+/* Puts the node of a field into a set, or a node, THRU and another; goes to the last of these fields. */
+static OstStatus put_nodes(Nastran *nastran, int set, int *field)
 {
     OstGlobal node = 0, last = 0;
+    OST_TRY(take_integer(nastran, "a node", *field, &node));
+    if (strcasecmp(field_of(nastran, *field + 1), "THRU") != 0)
+        return ost_cells_put(&nastran->cells, set, node);
+    OST_TRY(take_integer(nastran, "a node", *field + 2, &last));
+    if (node < 0 || last < node || last > OST_LARGEST_LABEL)
+        return OST_RAISE_MSH(&nastran->cursor, "nodes %" PRId64 " THRU %" PRId64, node, last);
+    *field += 2;
+    OST_TRY(ost_cells_put_range(&nastran->cells, set, node, last, 1));
+    ost_cells_keep_once(&nastran->cells, set);
+    return OST_SUCCESS;
+}
+
+/* SPC1: set, components, then nodes. */
+static OstStatus read_constraints(Nastran *nastran)
+{
     int set = -1;
     OST_TRY(constraint_set(nastran, &set));
-    for (int f = 2; f < nastran->fields; f++) {
-        if (!field_of(nastran, f)[0])
-            continue;
-        OST_TRY(take_integer(nastran, "a node", f, &node));
-        if (strcasecmp(field_of(nastran, f + 1), "THRU") == 0) {
-            OST_TRY(take_integer(nastran, "a node", f + 2, &last));
-            if (node < 0 || last < node || last > OST_LARGEST_LABEL)
-                return OST_RAISE_MSH(&nastran->cursor, "nodes %" PRId64 " THRU %" PRId64, node, last);
-            OST_TRY(ost_cells_put_range(&nastran->cells, set, node, last, 1));
-            ost_cells_keep_once(&nastran->cells, set);
-            f += 2;
-        } else {
-            OST_TRY(ost_cells_put(&nastran->cells, set, node));
-        }
-    }
+    for (int f = 2; f < nastran->fields; f++)
+        if (field_of(nastran, f)[0])
+            OST_TRY(put_nodes(nastran, set, &f));
     return OST_SUCCESS;
+}
+
+/* --- what is passed over --- */
+
+static const OstPassedWay ways[] = {
+    {"RBE2", ""},
+    {"RBE3", ""},
+    {"RBE1", ost_way_joined},
+    {"RBAR", ost_way_joined},
+    {"RBAR1", ost_way_joined},
+    {"RROD", ost_way_joined},
+    {"RTRPLT", ost_way_joined},
+    {"RSSCON", ost_way_joined},
+    {"RSPLINE", ost_way_joined},
+    {"MPC", ost_way_joined},
+    {"TIE", ost_way_joined},
+    {"BGSET", ost_way_joined},
+    {"CWELD", ost_way_joined},
+    {"CFAST", ost_way_joined},
+    {"CONTACT", ost_way_contact},
+    {"BCTABLE", ost_way_contact},
+    {"BCTABL1", ost_way_contact},
+    {"BCONECT", ost_way_contact},
+    {"BCTSET", ost_way_contact},
+    {"CGAP", ost_way_contact},
+    {"PSHELL", ost_way_thin},
+    {"PCOMP", ost_way_thin},
+    {"PCOMPG", ost_way_thin},
+    {"CBUSH", ost_way_spring},
+    {"CELAS1", ost_way_spring},
+    {"CELAS2", ost_way_spring},
+    {"CELAS3", ost_way_spring},
+    {"CELAS4", ost_way_spring},
+    {"MAT9", ost_way_axes},
+    {"MAT11", ost_way_axes},
+    {"MATORT", ost_way_axes},
+};
+
+/* RBE2: number, point, components, nodes. RBE3: number, nothing, point, components, then a weight, components and
+ * nodes, again and again. A real number at the end of one is a thermal expansion. */
+static OstStatus read_rigid(Nastran *nastran, int in_the_mean)
+{
+    OstGlobal label = 0;
+    char name[32];
+    Rigid rigid = {.in_the_mean = in_the_mean};
+    if (nastran->rigid_count == MOST_RIGID)
+        return OST_SUCCESS;
+    OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
+    OST_TRY(take_integer(nastran, "a node", in_the_mean ? 2 : 1, &rigid.point));
+    snprintf(name, sizeof name, "%s-%" PRId64, in_the_mean ? "rbe3" : "rbe2", label);
+    OST_TRY(ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, &rigid.set));
+    for (int f = in_the_mean ? 4 : 3; f < nastran->fields; f++) {
+        const char *text = field_of(nastran, f);
+        if (isalpha((unsigned char)text[0])) /* UM, ALPHA */
+            break;
+        if (strchr(text, '.'))
+            f += in_the_mean;
+        else if (text[0])
+            OST_TRY(put_nodes(nastran, rigid.set, &f));
+    }
+    nastran->rigid[nastran->rigid_count++] = rigid;
+    return OST_SUCCESS;
+}
+
+static void warn_passed(Nastran *nastran)
+{
+    const OstMeshChunk *chunk = nastran->cells.chunk;
+    for (int r = 0; r < nastran->rigid_count; r++) {
+        const Rigid *rigid = &nastran->rigid[r];
+        const char *on = nastran->cells.set[rigid->set].name;
+        char at[96] = "[x, y, z]";
+        for (OstLocal n = 0; n < chunk->node_count; n++)
+            if (chunk->node_label[n] == rigid->point) {
+                const double *x = chunk->coordinates + 3 * (size_t)n;
+                snprintf(at, sizeof at, "[%.7g, %.7g, %.7g]", x[0], x[1], x[2]);
+            }
+        ost_passed_point(&nastran->passed, on, at, rigid->in_the_mean);
+    }
+    ost_passed_warn(nastran->cursor.ctx, nastran->cells.path, &nastran->passed);
 }
 
 /* SPC: set, then a node, components and a displacement, twice. */
@@ -309,7 +401,9 @@ static OstStatus end_card(Nastran *nastran)
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
         if (strcmp(name, others[o].name) == 0)
             ost_cells_skip(&nastran->cells, others[o].dimension, name);
-    return OST_SUCCESS;
+    if (strcmp(name, "RBE2") == 0 || strcmp(name, "RBE3") == 0)
+        OST_TRY(read_rigid(nastran, name[3] == '3'));
+    return ost_passed_take(nastran->cursor.ctx, ways, sizeof ways / sizeof *ways, name, &nastran->passed);
 }
 
 static void begin_card(Nastran *nastran, const char *line, const char *end)
@@ -436,7 +530,9 @@ OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chu
     OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
     OST_THEN(read_lines(&nastran));
     OST_THEN(place_nodes(&nastran));
-    OST_FREE(nastran.field, nastran.systems.system, nastran.place);
+    if (status == OST_SUCCESS)
+        warn_passed(&nastran);
+    OST_FREE(nastran.field, nastran.systems.system, nastran.place, nastran.passed.word);
     ost_msh_close(&nastran.cursor);
     OST_THEN(ost_cells_finish(&nastran.cells, chunk));
     ost_cells_close(&nastran.cells);

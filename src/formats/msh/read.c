@@ -199,6 +199,10 @@ static const char *way_of_another(char first)
     if (first == '(')
         return "; is it of Fluent? python3 -c \"import meshio; meshio.ansys.read('FILE').write('NEW.vtu')\" converts "
                "it";
+    if (first == '*')
+        return "; is it of CalculiX (cgx) or Abaqus? Name it .inp";
+    if (first == 'M' || first == 'm')
+        return "; is it of GiD? Export it there for Abaqus, as .inp";
     return isdigit((unsigned char)first) ? "; is it of FreeFEM? savemesh(Th, \"NEW.mesh\") writes a mesh that is read"
                                          : "";
 }

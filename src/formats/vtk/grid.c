@@ -15,9 +15,12 @@
 /* Names of cell arrays that say which region or boundary a cell is in, as programs write them; the first that a file
  * has counts. */
 static const char *const region_names[] = {
-    "region",     "regions",  "gmsh:physical", "medit:ref",   "CellEntityIds",  "cell_tags", "MaterialIDs",
-    "MaterialID", "material", "mat",           "attribute",   "attributes",     "physical",  "PartID",
-    "part",       "label",    "labels",        "GeometryIds", "ElementBlockIds"};
+    "region", "regions", "gmsh:physical", "medit:ref", "CellEntityIds", "cell_tags", "MaterialIDs", "MaterialID",
+    "material", "mat", "attribute", "attributes", "physical", "PartID", "part", "label", "labels", "GeometryIds",
+    "ElementBlockIds",
+    /* what meshio, FEBio Studio, sfepy, libMesh, CGAL and ParaView call them */
+    "netgen:index", "avsucd:material", "su2:tag", "tetgen:ref", "ugrid:ref", "nastran:ref", "part_id", "material_id",
+    "mat_id", "subdomain_id", "MeshDomain", "ObjectId"};
 enum { REGION_NAMES = sizeof region_names / sizeof *region_names };
 
 /* What VTK's cell types are here. */

@@ -40,8 +40,8 @@ static int count_names(const char *name, char sign)
     return count;
 }
 
-/* Would meshio have put this sign between such names? Those before it then stand in some of them: "part_id" of two
- * numbers is no pair of sets, which had been "part-id". */
+/* Would meshio have put this sign between such names? Those before it then stand in some of them: "cell_id" of two
+ * numbers is no pair of sets, which had been "cell-id". */
 static int may_be_between(const char *name, const char *sign)
 {
     int may = 1;

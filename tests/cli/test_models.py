@@ -1,0 +1,140 @@
+"""Of a whole model of another program the mesh is read; what else moves the body is told, with the lines for the case file
+that do the same."""
+import re
+
+from program import check, new_folder, read_json, run, write
+
+folder = new_folder()
+
+BAR = """*Part, name=Bar
+*Node
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+*Element, type=C3D8R, elset=wood
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*Nset, nset=foot
+1, 2, 3, 4
+*Surface, name=low
+wood, S1
+*Surface, name=high
+wood, S2
+*Orientation, name=Grain
+1., 0., 0., 0., 2., 0.
+3, 30.
+*Solid Section, elset=wood, orientation=Grain, material=Oak
+,
+*End Part
+"""
+DECK = BAR + """*Assembly, name=Assembly
+*Instance, name=Bar-1, part=Bar
+*End Instance
+*Instance, name=Bar-2, part=Bar
+0., 0., 1.
+*End Instance
+*Node
+1, 0.5, 0.5, 3.
+*Nset, nset=Handle
+1
+*Nset, nset="Top nodes", instance=Bar-2
+5, 6, 7, 8
+*Surface, type=NODE, name="Top_CNS_", internal
+"Top nodes", 1.
+*Tie, name=Glue, adjust=yes, position tolerance=0.01
+Bar-2.low, Bar-1.high
+*Coupling, constraint name=Cap, ref node=Handle, surface="Top_CNS_"
+*Kinematic
+*End Assembly
+*Material, name=Oak
+*Boundary
+Bar-1.foot, ENCASTRE
+*Contact Pair, interaction=Rough
+Bar-2.low, Bar-1.high
+*Step
+*Static
+*End Step
+"""
+
+
+def warnings(name, text):
+    done = run("mesh", write(folder, name, text), folder=folder)
+    check(done.exit_code == 0, done.errors)
+    return done.errors
+
+
+def told(said):
+    return re.findall(r"^  (\w+): - (.*)$", said, re.M)
+
+
+said = warnings("deck.inp", DECK)
+check("*ORIENTATION (1), *TIE (1), *COUPLING (1), *CONTACT PAIR (1)" in said and "there is no contact" in said, said)
+lines = told(said)
+check([section for section, _ in lines] == ["materials", "materials", "constraints", "constraints"], said)
+check(lines[0][1] == "{region: Bar-1.wood, axes: {fixed: {e1: [0.866025404, 0.5, 0], e2: [-0.5, 0.866025404, 0]}}, ...}", said)
+check(lines[2][1] == "{on: {boundary: Bar-2.low}, tied_to: {boundary: Bar-1.high}, tolerance: 0.01}", said)
+check(lines[3][1] == "{on: {boundary: Top_CNS_}, rigid: [0.5, 0.5, 3]}", said)
+
+# With these lines the two bars are one, of length 2, that a force on the point lengthens.
+case = f"""mesh: {{file: deck.inp}}
+materials: [{lines[0][1].replace("...", "youngs_modulus: [1e3, 1e3, 1e3], poissons_ratio: 0").replace("Bar-1.wood", "all")}]
+constraints:
+  - {{on: {{boundary: Bar-1.foot}}, displacement: [0, 0, 0]}}
+  - {lines[2][1]}
+  - {lines[3][1]}
+loads: [{{on: {{boundary: Top_CNS_}}, total_force: [0, 0, 10], at: [0.5, 0.5, 3]}}]
+large_rotation: off
+watch: {{top: {{displacement: {{nearest: [1, 1, 2]}}, component: z}}}}
+"""
+done = run("solve", write(folder, "deck.yaml", case), "-q", "--json", "deck.json", folder=folder)
+check(done.exit_code == 0, done.errors)
+top = read_json(folder, "deck.json")["watched"]["top"]["value"]
+check(abs(top - 0.02) < 1e-7, top)
+plain = run("check", write(folder, "plain.yaml", re.sub(r"  - .*tied_to.*\n", "", case)), folder=folder)
+check(plain.exit_code == 2 and "tied_to: {boundary: Bar-1.high}" in plain.errors, plain.errors)
+
+# About the other axes, about a cylinder; a distribution, and an instance that is turned, are left to words.
+for turn, expected in (("1, 90.", "e1: [1, 0, 0], e2: [0, 0, 1]"), ("2, 90.", "e1: [0, 0, -1], e2: [0, 1, 0]")):
+    said = re.sub(r"-?\d\.\d+e-17", "0", warnings("turn.inp", DECK.replace("3, 30.", turn)))
+    check(expected in said, said)
+said = warnings("ring.inp", DECK.replace("name=Grain\n", "name=Grain, system=CYLINDRICAL\n").replace("3, 30.", "3, 0."))
+check("cylindrical: {origin: [1, 0, 0], axis: [-1, 2, 0], order: [radial, tangential, axial]}" in said, said)
+for deck in (DECK.replace("3, 30.", "3, Dist-1"), DECK.replace("0., 0., 1.\n*End I", "0., 0., 1.\n0,0,0,0,0,1,90.\n*End I")):
+    said = warnings("words.inp", deck)
+    check("axes: {" not in said and "*ORIENTATION (1)" in said and "material axes are those of the case" in said, said)
+
+# A surface of nodes: a set, or a node, and its area. A mesh alone is told nothing of.
+said = warnings("mesh.inp", DECK.split("*Tie")[0].replace("*Orientation", "**").replace(", orientation=Grain", "") +
+                "*Surface, type=NODE, name=one\nBar-1.3, 0.25\n*End Assembly\n")
+check("not read" not in said, said)
+
+BULK = """BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+GRID,9,,0.5,0.5,2.
+GRID,10,,0.5,0.5,-1.
+CHEXA,1,7,1,2,3,4,5,6
++,7,8
+RBE2,17,9,123456,5,THRU,8,1.2-5
+RBE3,18,,10,123456,1.,123,1,2
+,3,2.,123,4,UM,9,1
+CELAS2,77,100.,9,1
+ENDDATA
+"""
+said = warnings("model.bdf", BULK)
+check("RBE2 (1), RBE3 (1), CELAS2 (1)" in said and "springs" in said, said)
+check(told(said) == [("constraints", "{on: {boundary: rbe2-17}, rigid: [0.5, 0.5, 2]}"),
+                     ("loads", "{on: {boundary: rbe3-18}, total_force: [fx, fy, fz], at: [0.5, 0.5, -1]}")], said)
+run("mesh", "model.bdf", "--json", "model.json", folder=folder)
+check([(b["name"], b["count"]) for b in read_json(folder, "model.json")["boundaries"]] == [("rbe2-17", 2), ("rbe3-18", 2)],
+      "the nodes of rigid elements")
