@@ -28,6 +28,12 @@ OstStatus ost_case_parse(OstContext *ctx, const char *path, const char *text, Os
 OstStatus ost_case_parse_with(OstContext *ctx, const char *path, const char *text, int count,
                               const char *const *settings, OstCase **out);
 
+/* Collective. The same for one run of a sweep over the keys of the settings: raises OST_INVALID_USAGE where one of them
+ * changes what another one sets. */
+OstStatus ost_case_read_swept(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **out);
+OstStatus ost_case_parse_swept(OstContext *ctx, const char *path, const char *text, int count,
+                               const char *const *settings, OstCase **out);
+
 void ost_case_destroy(OstCase **c);
 
 /* Local. The load cases (`cases`): how many, 0 if there are none; and one of them by number from 0, which is a case of

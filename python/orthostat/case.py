@@ -45,18 +45,20 @@ class Case:
     and None for the case's word `free`.
     settings: {key: value}, changes as by the program's --set KEY=VALUE.
     name: what messages call a text or a dict; files that it names are relative to the folder of this name.
+    swept: of a sweep: two settings of one value are refused, where else the last counts.
     """
 
-    def __init__(self, source, name="case", comm=None, settings=None):
+    def __init__(self, source, name="case", comm=None, settings=None, swept=False):
         self.context = context_of(comm)
         box = self.context.box("OstCase")
         source = _text_of(source) if isinstance(source, dict) else source
         texts = [ffi.new("char[]", f"{key}={_value(value)}".encode()) for key, value in (settings or {}).items()]
         if isinstance(source, str) and ("\n" in source or ": " in source):
-            status = lib.ost_case_parse_with(self.context.pointer, os.fspath(name).encode(), source.encode(), len(texts),
-                                             texts, box)
+            parse = lib.ost_case_parse_swept if swept else lib.ost_case_parse_with
+            status = parse(self.context.pointer, os.fspath(name).encode(), source.encode(), len(texts), texts, box)
         else:
-            status = lib.ost_case_read_with(self.context.pointer, os.fspath(source).encode(), len(texts), texts, box)
+            read = lib.ost_case_read_swept if swept else lib.ost_case_read_with
+            status = read(self.context.pointer, os.fspath(source).encode(), len(texts), texts, box)
         self.context.check(status)
         self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_case_destroy)
 
@@ -226,7 +228,8 @@ class Sweep:
         values = self.all[self.done]
         self.done += 1
         try:
-            return values, Case(self.source, comm=self.comm, settings=values).solve(self.mesh, **self.limits)
+            case = Case(self.source, comm=self.comm, settings=values, swept=True)
+            return values, case.solve(self.mesh, **self.limits)
         except OrthostatError as error:
             error.values = values
             error.args = (f"{', '.join(f'{key}={_value(value)}' for key, value in values.items())}: {error.args[0]}",)

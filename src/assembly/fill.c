@@ -9,13 +9,13 @@
 
 #include <string.h>
 
-/* Numbers in one tet's blocks, rounded up to a multiple of the SIMD width. */
-enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_SIMD_WIDTH };
+/* Numbers in one tet's blocks, rounded up to a multiple of four. */
+enum { BLOCK_NUMBERS = 9 * OST_MAX_TET_NODES * (OST_MAX_TET_NODES + 1) / 2 + OST_SIMD_FOUR };
 
 static inline void add_block(double *sum, const double *block)
 {
-    for (int i = 0; i < 8; i += OST_SIMD_WIDTH)
-        *(OstSimdUnaligned *)(sum + i) += *(const OstSimdUnaligned *)(block + i);
+    for (int i = 0; i < 8; i += OST_SIMD_FOUR)
+        *(OstSimdFour *)(sum + i) += *(const OstSimdFour *)(block + i);
     sum[8] += block[8];
 }
 
@@ -29,13 +29,16 @@ static inline void add_transposed(double *restrict sum, const double *restrict b
 /* Transposes the blocks, so that each tet's numbers are contiguous: returns how many there are, padding included. */
 static int blocks_by_tet(const OstSimd *blocks, int count, double *numbers)
 {
-    const int width = (count + OST_SIMD_WIDTH - 1) / OST_SIMD_WIDTH * OST_SIMD_WIDTH;
-    for (int i = 0; i < width; i += OST_SIMD_WIDTH) {
-        OstSimd turned[OST_SIMD_WIDTH];
-        ost_simd_transpose(blocks + i, turned);
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-            *(OstSimdUnaligned *)(numbers + slot * width + i) = turned[slot];
-    }
+    const int width = (count + OST_SIMD_FOUR - 1) / OST_SIMD_FOUR * OST_SIMD_FOUR;
+    for (int i = 0; i < width; i += OST_SIMD_FOUR)
+        for (int from = 0; from < OST_SIMD_WIDTH; from += OST_SIMD_FOUR) {
+            OstSimdFour rows[OST_SIMD_FOUR], turned[OST_SIMD_FOUR];
+            for (int k = 0; k < OST_SIMD_FOUR; k++)
+                rows[k] = *(const OstSimdFour *)((const double *)&blocks[i + k] + from);
+            ost_simd_transpose(rows, turned);
+            for (int slot = 0; slot < OST_SIMD_FOUR; slot++)
+                *(OstSimdFour *)(numbers + (from + slot) * width + i) = turned[slot];
+        }
     return width;
 }
 

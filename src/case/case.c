@@ -466,16 +466,33 @@ OstStatus ost_case_parse_with(OstContext *ctx, const char *path, const char *tex
     return ost_case_make(ctx, path, &whole, c);
 }
 
-OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **c)
+OstStatus ost_case_parse_swept(OstContext *ctx, const char *path, const char *text, int count,
+                               const char *const *settings, OstCase **c)
 {
-    OstCaseText text = {.settings = count, .setting = settings};
+    const OstCaseText whole = {
+        .bytes = text, .size = strlen(text), .settings = count, .swept = count, .setting = settings};
+    return ost_case_make(ctx, path, &whole, c);
+}
+
+static OstStatus read_and_make(OstContext *ctx, const char *path, OstCaseText *text, OstCase **c)
+{
     char *bytes = NULL;
     *c = NULL;
-    OST_TRY(ost_case_bytes(ctx, path, &bytes, &text.size));
-    text.bytes = bytes;
-    const OstStatus status = ost_case_make(ctx, path, &text, c);
+    OST_TRY(ost_case_bytes(ctx, path, &bytes, &text->size));
+    text->bytes = bytes;
+    const OstStatus status = ost_case_make(ctx, path, text, c);
     OST_FREE(bytes);
     return status;
+}
+
+OstStatus ost_case_read_with(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **c)
+{
+    return read_and_make(ctx, path, &(OstCaseText){.settings = count, .setting = settings}, c);
+}
+
+OstStatus ost_case_read_swept(OstContext *ctx, const char *path, int count, const char *const *settings, OstCase **c)
+{
+    return read_and_make(ctx, path, &(OstCaseText){.settings = count, .swept = count, .setting = settings}, c);
 }
 
 OstStatus ost_case_read(OstContext *ctx, const char *path, OstCase **c)

@@ -55,7 +55,7 @@ static inline void shear_shares(const OstPolar *polar, const OstSimd inverse[3],
     for (int k = 0; k < 3; k++) {
         const int i = pair[k][0];
         const int j = pair[k][1];
-        share[k][k] = (OstSimd){1.0, 1.0, 1.0, 1.0};
+        share[k][k] = (OstSimd){0} + 1.0;
         share[i][j] = 2.0 * polar->stretch[i] * inverse[k];
         share[j][i] = 2.0 * polar->stretch[j] * inverse[k];
     }

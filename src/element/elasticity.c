@@ -106,10 +106,15 @@ static void fill_batch(const double stiffness[36], OstSimd *c)
 /* Reads each tet's axes from memory. */
 static inline void gather_axes(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH], OstSimd axes[9])
 {
-    OstSimd rows[OST_SIMD_WIDTH], turn[4];
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-        rows[slot] = *(const OstSimdUnaligned *)(field->tet_turn + 4 * (size_t)tets[slot]);
-    ost_simd_transpose(rows, turn);
+    OstSimd turn[4];
+    for (int from = 0; from < OST_SIMD_WIDTH; from += OST_SIMD_FOUR) {
+        OstSimdFour rows[OST_SIMD_FOUR], turned[OST_SIMD_FOUR];
+        for (int slot = 0; slot < OST_SIMD_FOUR; slot++)
+            rows[slot] = *(const OstSimdFour *)(field->tet_turn + 4 * (size_t)tets[from + slot]);
+        ost_simd_transpose(rows, turned);
+        for (int i = 0; i < 4; i++)
+            *(OstSimdFour *)((double *)&turn[i] + from) = turned[i];
+    }
     OST_AXES_OF_TURN(turn, axes);
 }
 
@@ -321,7 +326,9 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
     elasticity->about_line = 0;
     elasticity->varying = 0;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        const OstLocal same[OST_SIMD_WIDTH] = {tets[slot], tets[slot], tets[slot], tets[slot]};
+        OstLocal same[OST_SIMD_WIDTH];
+        for (int other = 0; other < OST_SIMD_WIDTH; other++)
+            same[other] = tets[slot];
         OstElasticity one;
         ost_elasticity_clear(&one);
         gather_region(&one, field, field->tet_region[tets[slot]], same, points, places);

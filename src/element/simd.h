@@ -6,13 +6,19 @@
 #include <stdint.h>
 
 /* One number of each tet of a batch. A kernel reads as if it were written for one tet, and computes the whole batch at
- * once in SIMD registers. On a processor without registers this wide the compiler splits the vectors. */
+ * once in SIMD registers, as wide as those of the processor that the program is built for. */
+#ifdef __AVX512F__
+enum { OST_SIMD_WIDTH = 8 };
+#else
 enum { OST_SIMD_WIDTH = 4 };
+#endif
 typedef double OstSimd __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double))));
 
-/* The same at any address of doubles. (With memcpy, GCC may copy it through the stack in two halves, which stalls.) */
-typedef double OstSimdUnaligned
-    __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(double)), aligned(sizeof(double)), may_alias));
+/* Four numbers of one tet, at any address of doubles. (With memcpy, GCC may copy them through the stack in two halves,
+ * which stalls.) */
+enum { OST_SIMD_FOUR = 4 };
+typedef double OstSimdFour
+    __attribute__((vector_size(OST_SIMD_FOUR * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 /* What comparisons yield: all bits of a tet's number, or none. */
 typedef int64_t OstSimdMask __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(int64_t))));
@@ -35,13 +41,13 @@ static inline void ost_simd_square_root(OstSimd *a)
         (*a)[slot] = sqrt((*a)[slot]);
 }
 
-/* Transposes 4 × 4 numbers: out[t] has tet t's number of each of the four vectors. */
-static inline void ost_simd_transpose(const OstSimd in[OST_SIMD_WIDTH], OstSimd out[OST_SIMD_WIDTH])
+/* Transposes 4 × 4 numbers. */
+static inline void ost_simd_transpose(const OstSimdFour in[OST_SIMD_FOUR], OstSimdFour out[OST_SIMD_FOUR])
 {
-    const OstSimd low01 = __builtin_shufflevector(in[0], in[1], 0, 4, 2, 6);
-    const OstSimd high01 = __builtin_shufflevector(in[0], in[1], 1, 5, 3, 7);
-    const OstSimd low23 = __builtin_shufflevector(in[2], in[3], 0, 4, 2, 6);
-    const OstSimd high23 = __builtin_shufflevector(in[2], in[3], 1, 5, 3, 7);
+    const OstSimdFour low01 = __builtin_shufflevector(in[0], in[1], 0, 4, 2, 6);
+    const OstSimdFour high01 = __builtin_shufflevector(in[0], in[1], 1, 5, 3, 7);
+    const OstSimdFour low23 = __builtin_shufflevector(in[2], in[3], 0, 4, 2, 6);
+    const OstSimdFour high23 = __builtin_shufflevector(in[2], in[3], 1, 5, 3, 7);
     out[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
     out[1] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
     out[2] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);

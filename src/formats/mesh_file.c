@@ -169,6 +169,7 @@ static OstStatus read_file(OstContext *ctx, const char *path, OstMeshChunk **chu
     } else
         status = read_serial(ctx, format, path, chunk, materials);
     OST_THEN(ost_agree(ctx, make_names_plain(path, *chunk)));
+    OST_THEN(ost_agree(ctx, ost_copy_string(ctx, path, &(*chunk)->file)));
     if (status != OST_SUCCESS) {
         ost_chunk_destroy(chunk);
         ost_file_materials_destroy(materials);

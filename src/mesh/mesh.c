@@ -176,7 +176,7 @@ void ost_chunk_destroy(OstMeshChunk **chunk)
     if (!old)
         return;
     OST_FREE(old->coordinates, old->node_label, old->tet_nodes, old->tet_label, old->tet_region, old->tet_axes,
-             old->tet_field);
+             old->tet_field, old->file);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);
     OST_FREE(*chunk);

@@ -62,6 +62,7 @@ struct OstMeshChunk {
     int boundary_count;
     OstBoundary *boundaries;
     int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
+    char *file;     /* that it is read from, for messages; or NULL */
 };
 
 /* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */

@@ -144,7 +144,7 @@ MISTAKES = [
     ("a table without points", GOOD.replace("vtkhdf}", "vtkhdf, probes: {a: {points: []}}}"), {}, ["case.yaml:9:", "expected points"]),
     ("indefinite material", GOOD.replace("1000, poissons_ratio: 0.3", "1000, poissons_ratio: 0.6"), {}, ["case.yaml:4:", "0.5"]),
     ("truncated mesh", with_mesh("m.veg"), {"m.veg": veg()[:60]}, ["m.veg"]),
-    ("inverted tet", with_mesh("m.veg"), {"m.veg": veg(tet="0 2 1 3")}, ["tet 0", "-0.166"]),
+    ("inverted tet", with_mesh("m.veg"), {"m.veg": veg(tet="0 2 1 3")}, ["m.veg: tet 0 is inverted", "-0.166", "--orient"]),
     ("flat tet", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 1 1 0")}, ["tet 0", "flat"]),
     ("unused vertex", with_mesh("m.veg"), {"m.veg": veg(nodes="5", extra="4 2 2 2\n")}, ["4"]),
     ("coordinate not finite", with_mesh("m.veg"), {"m.veg": veg().replace("3 0 0 1", "3 0 0 nan")}, ["m.veg"]),

@@ -4,11 +4,12 @@
 
 enum { N = 9 };
 
-/* The eigenvalues of four matrices at once: distinct, equal, of very different sizes, and none but 0. */
+/* Eigenvalues, those of a batch at once: distinct, equal, of very different sizes, and none but 0. */
 static const double wanted[][N] = {
     {1, 2, 3, 4, 5, 6, 7, 8, 9}, {-1, -1, -1, 0, 0, 0, 2, 2, 2}, {1e-12, 1e-8, 1e-4, 1, 1e3, -1, -1e-6, 0, 1},
     {0, 0, 0, 0, 0, 0, 0, 0, 0}, {1e9, 1, 1, 1, 1, 1, 1, 1, -1}, {1, -1, 1, -1, 1, -1, 1, -1, 1},
     {0, 0, 0, 0, 5, 0, 0, 0, 0}, {3, 3, 3, 3, 3, 3, 3, 3, 3}};
+enum { COUNT = sizeof wanted / sizeof *wanted }; /* a multiple of any SIMD width */
 
 /* Eigenvectors as far from the axes as `mixed` says: those of a diagonal matrix, of one that falls apart into blocks,
  * of a full one. */
@@ -33,12 +34,12 @@ static void make_matrix(const double value[N], int mixed, double a[N * N])
 
 static void eigenvectors_give_the_matrix_again(void **state)
 {
-    for (int group = 0; group < 2; group++)
+    for (int group = 0; group < COUNT / OST_SIMD_WIDTH; group++)
         for (int mixed = 0; mixed < 5; mixed++) {
             double a[OST_SIMD_WIDTH][N * N];
             OstSimd matrix[N * N], value[N], vectors[N * N];
             for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-                make_matrix(wanted[4 * group + slot], mixed, a[slot]);
+                make_matrix(wanted[OST_SIMD_WIDTH * group + slot], mixed, a[slot]);
                 for (int n = 0; n < N * N; n++)
                     matrix[n][slot] = a[slot][n];
             }
@@ -52,7 +53,7 @@ static void eigenvectors_give_the_matrix_again(void **state)
                             unit += vectors[N * i + k][slot] * vectors[N * j + k][slot];
                         }
                         assert_close(again, a[slot][N * i + j],
-                                     1e-14 * largest_of(N, wanted[4 * group + slot]) + 1e-100);
+                                     1e-14 * largest_of(N, wanted[OST_SIMD_WIDTH * group + slot]) + 1e-100);
                         assert_close(unit, i == j, 1e-14);
                     }
         }

@@ -4,10 +4,21 @@
 #include "material/field_data.h"
 #include "support.h"
 
-enum { TETS = 12, REGIONS = 3 };
+enum { REGIONS = 3, TETS = REGIONS * OST_SIMD_WIDTH, MOST = 8 };
 
-/* Tets 0-3 isotropic, 4-7 orthotropic with fixed axes, 8-11 orthotropic with axes that vary; `mixed` deals the regions
- * out in turn instead. */
+/* The tets of a batch, and what a field of them wants; more than are needed where registers are narrow. */
+static const OstLocal first_tets[MOST] = {0, 1, 2, 3, 4, 5, 6, 7};
+static const OstGlobal label[MOST] = {1, 2, 3, 4, 5, 6, 7, 8};
+static const int32_t region_0[MOST] = {0};
+
+static void tets_from(OstLocal first, OstLocal tets[OST_SIMD_WIDTH])
+{
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        tets[slot] = first + slot;
+}
+
+/* A batch of isotropic tets, one orthotropic with fixed axes, one orthotropic with axes that vary; `mixed` deals the
+ * regions out in turn instead. */
 static OstMaterialField *make_field(int mixed, int32_t region[TETS])
 {
     const OstOrthotropic soft = ost_orthotropic_isotropic(2.0, 0.3);
@@ -22,20 +33,20 @@ static OstMaterialField *make_field(int mixed, int32_t region[TETS])
         {.kind = OST_AXES_CYLINDRICAL, .axis = {0, 1, 0}, .order = {OST_AXIAL, OST_RADIAL, OST_TANGENTIAL}}};
     const double degrees[3] = {20, 40, -70};
     double centroids[3 * TETS];
-    OstGlobal label[TETS];
+    OstGlobal labels[TETS];
     OstMaterialField *field = NULL;
     assert_success(ost_material_create(ctx, "soft", &soft, 0.0, &material[0]));
     assert_success(ost_material_create(ctx, "wood", &wood, 0.0, &material[1]));
     assert_success(ost_material_create(ctx, "tube", &tube, 0.0, &material[2]));
     assert_success(ost_axes_from_euler(ctx, "zxz", degrees, axes[1].fixed));
     for (int t = 0; t < TETS; t++) {
-        region[t] = mixed ? t % REGIONS : t / 4;
-        label[t] = t + 1;
+        region[t] = mixed ? t % REGIONS : t / OST_SIMD_WIDTH;
+        labels[t] = t + 1;
         centroids[3 * t] = cos(t);
         centroids[3 * t + 1] = t;
         centroids[3 * t + 2] = sin(t);
     }
-    assert_success(ost_field_create(ctx, NULL, REGIONS, material, axes, TETS, region, label, centroids, NULL, &field));
+    assert_success(ost_field_create(ctx, NULL, REGIONS, material, axes, TETS, region, labels, centroids, NULL, &field));
     return field;
 }
 
@@ -45,8 +56,7 @@ static void assert_gathered(const OstMaterialField *field)
     ost_elasticity_clear(&elasticity);
     for (OstLocal first = 0; first + OST_SIMD_WIDTH <= TETS; first += OST_SIMD_WIDTH) {
         OstLocal tets[OST_SIMD_WIDTH];
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
-            tets[slot] = first + slot;
+        tets_from(first, tets);
         ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             double c[36];
@@ -80,10 +90,11 @@ static void lanes_of_several_regions_hold_theirs(void **state)
 static void a_uniform_region_is_gathered_once(void **state)
 {
     int32_t region[TETS];
-    const OstLocal same[OST_SIMD_WIDTH] = {0, 1, 2, 3};
-    const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
+    OstLocal same[OST_SIMD_WIDTH], vary[OST_SIMD_WIDTH];
     OstMaterialField *field = make_field(0, region);
     OstElasticity elasticity;
+    tets_from(0, same);
+    tets_from(2 * OST_SIMD_WIDTH, vary);
     ost_elasticity_clear(&elasticity);
     ost_elasticity_gather(&elasticity, field, same, 0, NULL);
     assert_int_equal(elasticity.region, 0);
@@ -97,7 +108,7 @@ static void a_uniform_region_is_gathered_once(void **state)
     ost_field_destroy(&field);
 }
 
-/* Three points in each of the tets 2 to 5 or 8 to 11. */
+/* Three points in each tet. */
 static void some_places(OstSimd places[9])
 {
     for (int n = 0; n < 9; n++)
@@ -142,9 +153,10 @@ static void assert_at_points(const OstMaterialField *field, const OstLocal tets[
 static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
 {
     int32_t region[TETS];
-    const OstLocal vary[OST_SIMD_WIDTH] = {8, 9, 10, 11};
-    const OstLocal mixed_tets[OST_SIMD_WIDTH] = {2, 3, 4, 5};
-    const OstLocal same[OST_SIMD_WIDTH] = {4, 5, 6, 7};
+    OstLocal vary[OST_SIMD_WIDTH], mixed_tets[OST_SIMD_WIDTH], same[OST_SIMD_WIDTH];
+    tets_from(2 * OST_SIMD_WIDTH, vary);
+    tets_from(2, mixed_tets);
+    tets_from(OST_SIMD_WIDTH, same);
     for (int mixed = 0; mixed < 2; mixed++) {
         int regions = 0;
         OstElasticity elasticity;
@@ -170,9 +182,6 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
  * resists a change of shape by 2 G, and a pull beside that by the limit's bulk modulus. */
 static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **state)
 {
-    static const int32_t region[OST_SIMD_WIDTH] = {0};
-    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
-    const OstLocal tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
     const OstOrthotropic constants = ost_orthotropic_isotropic(2.0, 0.5 - 1e-10);
     const double shear = 2.0 / (2.0 * 1.5),
                  bulk = 2.0 / (3.0 * 0.1); /* G = E / (2 (1 + nu)), E / (3 (1 - 2 nu_limit)) */
@@ -182,10 +191,11 @@ static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **st
     OstElasticity elasticity;
     int regions = 0;
     assert_success(ost_material_create(ctx, "gel", &constants, 0.0, &material));
-    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, OST_SIMD_WIDTH, region, label, NULL, NULL, &field));
+    assert_success(
+        ost_field_create(ctx, NULL, 1, &material, NULL, OST_SIMD_WIDTH, region_0, label, NULL, NULL, &field));
     assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, tets, 1, places);
+    ost_elasticity_gather(&elasticity, field, first_tets, 1, places);
     assert_int_equal(elasticity.by_mean, 1);
     const double expected = bulk + 4.0 / 3.0 * shear, beside = bulk - 2.0 / 3.0 * shear;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -199,11 +209,9 @@ static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **st
     ost_field_destroy(&field);
 }
 
-/* Four tets with random axes, each its own (CELLS) or one for all (FIXED), of one material of the family. */
+/* Tets with random axes, each its own (CELLS) or one for all (FIXED), of one material of the family. */
 static OstMaterialField *family_field(const double youngs_modulus[3], double nu, OstShearRule rule, OstAxesKind kind)
 {
-    static const int32_t region[OST_SIMD_WIDTH] = {0};
-    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     const double centroids[3 * OST_SIMD_WIDTH] = {0};
     const OstOrthotropic constants = ost_orthotropic_family(youngs_modulus, nu, rule);
     OstAxesSpec spec = {.kind = kind};
@@ -215,13 +223,12 @@ static OstMaterialField *family_field(const double youngs_modulus[3], double nu,
     random_axes(9u, spec.fixed);
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
     assert_success(
-        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, axes, &field));
+        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region_0, label, centroids, axes, &field));
     return field;
 }
 
 static const double moduli[][3] = {{1, 1e12, 1e6}, {1e12, 1, 1}, {3e-4, 2e2, 5e8}, {1e6, 1e9, 1e6}, {2, 3, 5}};
 enum { MODULI = sizeof moduli / sizeof *moduli };
-static const OstLocal first_tets[OST_SIMD_WIDTH] = {0, 1, 2, 3};
 
 /* C of the family, which comes from its stretch tensor, against eq. 9. */
 static void the_familys_elasticity_is_the_rotated_one(void **state)
@@ -247,7 +254,7 @@ static void the_familys_elasticity_is_the_rotated_one(void **state)
     }
 }
 
-/* Stiffness of the four tets, by the stretch tensor if that suffices. */
+/* Stiffness of the tets, by the stretch tensor if that suffices. */
 static void stiffness_of_field(const OstMaterialField *field, int stretch_suffices, OstSimd blocks[90])
 {
     OstElasticity elasticity;
@@ -299,8 +306,6 @@ static void other_shear_has_no_metric(void **state)
 /* A about a line askew, made from the corners of tets, against A from the axes at their centroids. */
 static void the_metric_about_a_line_is_that_of_its_axes(void **state)
 {
-    static const int32_t region[OST_SIMD_WIDTH] = {0};
-    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
     const OstAxesSpec spec = {.kind = OST_AXES_CYLINDRICAL,
                               .origin = {0.3, -0.2, 0.5},
                               .axis = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0},
@@ -321,7 +326,7 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
     }
     assert_success(ost_material_create(ctx, "family", &constants, 0.0, &material));
     assert_success(
-        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, NULL, &field));
+        ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region_0, label, centroids, NULL, &field));
     ost_elasticity_clear(&about_line);
     about_line.stretch_suffices = 1;
     ost_elasticity_gather(&about_line, field, first_tets, 0, NULL);
@@ -347,10 +352,8 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
  * there are none, it is the tet's own. */
 static void elasticity_at_points_has_the_axes_there(void **state)
 {
-    static const int32_t region[OST_SIMD_WIDTH] = {0};
-    static const OstGlobal label[OST_SIMD_WIDTH] = {1, 2, 3, 4};
-    static const double centroids[3 * OST_SIMD_WIDTH] = {1.0, 0.2,  -0.4, -3.0, 5.0,  0.1,
-                                                         0.2, -0.7, 9.0,  1e-3, 2e-3, -1e4};
+    static const double centroids[3 * MOST] = {1.0, 0.2, -0.4, -3.0, 5.0,  0.1, 0.2,  -0.7, 9.0,  1e-3, 2e-3, -1e4,
+                                               0.7, 0.1, 0.3,  2.0,  -6.0, 1.5, -0.2, 0.4,  -8.0, 0.9,  -3.1, 0.8};
     const OstOrthotropic wood = {
         .youngs_modulus = {11e3, 0.9e3, 0.5e3}, .poissons_ratio = {0.37, 0.44, 0.02}, .shear_modulus = {700, 40, 500}};
     OstMaterial material;
@@ -366,7 +369,7 @@ static void elasticity_at_points_has_the_axes_there(void **state)
         OstElasticity elasticity;
         OstSimd places[6];
         assert_success(
-            ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region, label, centroids, NULL, &field));
+            ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region_0, label, centroids, NULL, &field));
         for (int i = 0; i < 6; i++)
             for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
                 places[i][slot] =

@@ -33,7 +33,7 @@ static void make_case(int nodes, int by_mean, double scatter, Case *test)
         for (int n = 0; n < 18; n++)
             x[12 + n] =
                 0.5 * (x[3 * ends[n / 3][0] + n % 3] + x[3 * ends[n / 3][1] + n % 3]) + scatter * random_number(&seed);
-        deformation((unsigned)slot + 7u, moderate[slot], f);
+        deformation((unsigned)slot + 7u, moderate[slot % 4], f);
         for (int n = 0; n < 3 * nodes; n++) {
             ost_apply3(f, x + n - n % 3, to);
             test->x[n][slot] = x[n];

@@ -18,7 +18,7 @@ static void random_tet10(unsigned seed, double bend, double x[WIDTH])
             x[12 + 3 * e + i] = 0.5 * (x[3 * ends[e][0] + i] + x[3 * ends[e][1] + i]) + bend * random_number(&s);
 }
 
-/* Four tets at once, each of its own shape, with one C. */
+/* A batch of tets of four shapes, with one C. */
 typedef struct Case {
     double x[OST_SIMD_WIDTH][WIDTH];
     double c[36];
@@ -33,7 +33,7 @@ static void make_case(double bend, Case *test)
     turned_ply(test->c);
     uniform_elasticity(test->c, &test->elasticity);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        random_tet10((unsigned)slot + 1u, bend, test->x[slot]);
+        random_tet10((unsigned)slot % 4u + 1u, bend, test->x[slot]);
         for (int n = 0; n < WIDTH; n++) {
             test->batch_x[n][slot] = test->x[slot][n];
             test->batch_u[n][slot] = random_number(&seed);

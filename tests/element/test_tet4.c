@@ -295,14 +295,14 @@ static void tets_are_told_apart_by_their_nodes(void **state)
 
 static void lanes_turn_into_tets(void **state)
 {
-    OstSimd in[OST_SIMD_WIDTH];
-    OstSimd out[OST_SIMD_WIDTH];
-    for (int i = 0; i < OST_SIMD_WIDTH; i++)
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+    OstSimdFour in[OST_SIMD_FOUR];
+    OstSimdFour out[OST_SIMD_FOUR];
+    for (int i = 0; i < OST_SIMD_FOUR; i++)
+        for (int slot = 0; slot < OST_SIMD_FOUR; slot++)
             in[i][slot] = 10 * i + slot;
     ost_simd_transpose(in, out);
-    for (int i = 0; i < OST_SIMD_WIDTH; i++)
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+    for (int i = 0; i < OST_SIMD_FOUR; i++)
+        for (int slot = 0; slot < OST_SIMD_FOUR; slot++)
             assert_close(out[slot][i], 10 * i + slot, 0.0);
 }
 

@@ -331,6 +331,10 @@ def sweeps_combine_values(folder):
     assert failure.values == {"materials.0.E1": -1}
     close(next(sweep)[1].watch["end"].value, 0.004, 1e-6)  # a failure ends no sweep
     raises(StopIteration, "", next, sweep)
+    twice = {"materials.0.E1": [10, 20], "materials.all.E1": [30]}  # one value by two names
+    raises(orthostat.OrthostatError, "the sweep sets one value by two keys, materials.0.E1=10 and materials.all.E1=30; leave one out",
+           next, orthostat.sweep(BAR, twice))
+    assert orthostat.Case(BAR, settings={key: values[0] for key, values in twice.items()})  # of settings the last counts
     for values, results in orthostat.sweep({**BAR, "cases": [{"name": "as-is"}, {"name": "more", "loads": BAR["loads"]}]},
                                            {"element.order": [1, 2]}):
         close(results["more"].watch["end"].value, 2 * results["as-is"].watch["end"].value, 1e-6)

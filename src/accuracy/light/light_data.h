@@ -14,6 +14,7 @@ enum { WIDTH = 8, HALVES = WIDTH / OST_SIMD_WIDTH, OFFSETS = 12, BENDS = 18 };
  * read at once. */
 typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
 typedef float Kept __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16))); /* in memory */
+typedef float Part __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(float))));     /* of a batch */
 typedef float Four __attribute__((vector_size(4 * sizeof(float)), may_alias));
 typedef double Wide __attribute__((vector_size(4 * sizeof(double)), aligned(16), may_alias));
 

@@ -56,7 +56,7 @@ static int is_fit(const OstMaterialField *field, int32_t region)
     return most < most_ratio * least;
 }
 
-/* Half of the eight. */
+/* A batch of the eight. */
 static void gather(const OstLightTets *tets, const OstMaterialField *field, size_t first, OstBatch *batch)
 {
     const OstLocal last = tets->mesh->tet_count - 1;
@@ -109,7 +109,7 @@ static Keeping find_keeping(const OstLightTets *tets, const OstMaterialField *fi
 
 static inline void put(const OstSimd *number, double unit, int half, Kept *kept)
 {
-    const Four over_unit = __builtin_convertvector(*number * (1.0 / unit), Four);
+    const Part over_unit = __builtin_convertvector(*number * (1.0 / unit), Part);
     memcpy((float *)kept + OST_SIMD_WIDTH * half, &over_unit, sizeof over_unit);
 }
 

@@ -141,16 +141,28 @@ done:
     return status;
 }
 
+/* The message about a bad mesh names its file, if it is from one. */
+static OstStatus name_file(const OstMeshChunk *chunk, OstStatus status)
+{
+    char *text = NULL;
+    if (status != OST_INVALID_INPUT || !chunk->file)
+        return status;
+    OST_TRY(ost_copy_string(chunk->ctx, ost_error_text(chunk->ctx), &text));
+    OST_RAISE(chunk->ctx, status, "%s: %s", chunk->file, text);
+    OST_FREE(text);
+    return status;
+}
+
 static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh **mesh)
 {
     OstContext *ctx = chunk->ctx;
-    OST_TRY(ost_check_chunk(chunk));
+    OST_TRY(name_file(chunk, ost_check_chunk(chunk)));
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, mesh, 1)));
     (*mesh)->ctx = ctx;
     (*mesh)->straighten = chunk->straighten;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
     OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : partition_and_move(chunk, tets, *mesh));
-    return ost_check_mesh(*mesh);
+    return name_file(chunk, ost_check_mesh(*mesh));
 }
 
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh)
