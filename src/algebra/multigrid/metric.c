@@ -29,10 +29,11 @@ typedef enum Correction { LINEAR_TETS, TURNING_VERTICES, AGGREGATES } Correction
 
 /* Linear tets that are longer than the body is thick lock too: their energy in bending is too large by the square of
  * that. Turning vertices do not bend as one through the thickness. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times
- * stiffer across: 7.2, and 352 iterations over linear tets, 46 without.
- * With the vertices' matrix factored they do well a while: condition 2 for a length of 3, 6 for 6, 36 for 13, 85 for
+ * stiffer across: 7.2, and 352 iterations over linear tets, 46 without. */
+static const double longest = 5.0;
+/* With the vertices' matrix factored they do well a while: condition 2 for a length of 3, 6 for 6, 36 for 13, 85 for
  * 30, 850 for 54 (plates; aggregates 51 and 98 for the last two). */
-const double ost_metric_longest = 5.0, ost_metric_longest_of_vertices = 15.0;
+const double ost_metric_longest_of_vertices = 15.0;
 /* Linear tets in a plate, and how much longer than thick they are, in the metric: from this on, the softest motion of a
  * smoother's block has less energy than single precision holds. A plate 1000 : 1 of 24 x 24 x 2 hexes: 140, and 40
  * iterations; 1000 times stiffer across, nu 0.45: 790, and 619 iterations, 44 over columns. */
@@ -146,6 +147,17 @@ done:
     return status;
 }
 
+/* The length of the tets over the thickness of the body, in the metric; 0 where that is not known. */
+static OstStatus find_length(const OstMetricGraph *graph, const OstSolverFacts *facts, double *length)
+{
+    *length = 0.0;
+    if (!facts || !(facts->thickness > 0.0))
+        return OST_SUCCESS;
+    OST_TRY(ost_metric_graph_flatness(graph, length));
+    *length /= fmax(0.5 * (facts->thickness - 1.0), 1.0); /* tets across */
+    return OST_SUCCESS;
+}
+
 static void set_options_of_aggregates(OstSolverOptions *options, int locks)
 {
     if (!(options->given & OST_GIVEN_AGGREGATE) && options->aggregate_nodes > quadratic_aggregate)
@@ -170,18 +182,20 @@ static OstStatus has_columns(const OstMetricGraph *graph, int *has)
 /* The cheapest that does not lock. STRONG and TWO_LEVEL come where linear tets were not enough. Along the stiff
  * directions STRONG goes over aggregates: a tube with E3 x 1e6 near the border of stability takes 415 iterations with
  * it; over vertices STRONG does not converge there. */
-static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, Correction *correction,
-                                   int *locks)
+static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph *graph, const OstSolverFacts *facts,
+                                   Correction *correction, int *locks)
 {
     static const char *const name[] = {"linear tets", "vertices that also turn", "aggregates of quadratic tets' nodes"};
     const OstMethod method = metric->options.method;
-    double misalignment, length;
+    double misalignment, length, slenderness = 0.0;
     int is_plate = 0;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
-    OST_TRY(ost_metric_graph_slenderness(graph, &length));
+    OST_TRY(find_length(graph, facts, &length));
+    if (method == OST_METHOD_TWO_LEVEL)
+        OST_TRY(ost_metric_graph_slenderness(graph, &slenderness));
     const int crosses = misalignment > ost_metric_misaligned;
-    const int bends = crosses || (method == OST_METHOD_TWO_LEVEL && length <= ost_metric_longest_of_vertices);
-    *locks = length > ost_metric_longest;
+    const int bends = crosses || (method == OST_METHOD_TWO_LEVEL && slenderness <= ost_metric_longest_of_vertices);
+    *locks = length > longest;
     OST_TRY(bends && *locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
     if (is_plate || (!bends && (*locks || method == OST_METHOD_STRONG)))
         *correction = AGGREGATES;
@@ -228,7 +242,7 @@ static OstStatus build_quadratic(OstMetric *metric, const OstSolverGeometry *geo
     int locks = 0;
     OstStatus status;
     OST_TRY_DONE(ost_metric_graph_create(metric->matrix, geometry, &graph));
-    OST_TRY_DONE(choose_correction(metric, graph, &correction, &locks));
+    OST_TRY_DONE(choose_correction(metric, graph, geometry->facts, &correction, &locks));
     if (correction == LINEAR_TETS) {
         OST_TRY_DONE(build_over_linear(metric, geometry, graph, levels, quadratic));
     } else if (correction == TURNING_VERTICES) {
@@ -291,7 +305,7 @@ OstStatus ost_metric_measure(const OstBlockMatrix *matrix, const OstSolverGeomet
     OST_TRY_DONE(ost_metric_graph_create(matrix, geometry, &graph));
     OST_TRY_DONE(ost_metric_graph_misalignment(graph, &facts->misalignment));
     OST_TRY_DONE(ost_metric_graph_slenderness(graph, &facts->slenderness));
-    OST_TRY_DONE(facts->slenderness > ost_metric_longest ? has_columns(graph, &is_plate) : OST_SUCCESS);
+    OST_TRY_DONE(has_columns(graph, &is_plate));
     if (is_plate)
         facts->slenderness = 0.0;
 done:

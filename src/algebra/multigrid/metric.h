@@ -14,9 +14,8 @@ typedef struct OstMetric OstMetric;
 /* Quadratic tets whose edges are further off the stiff directions go over vertices that turn, not over linear tets. */
 extern const double ost_metric_misaligned;
 
-/* Linear tets that are longer than this over the thickness of the body are no coarse level, and up to the second
- * vertices that turn are one, once factored. */
-extern const double ost_metric_longest, ost_metric_longest_of_vertices;
+/* Up to this length over the thickness of the body vertices that turn are a good coarse level, once factored. */
+extern const double ost_metric_longest_of_vertices;
 
 /* Collective. Fills in the facts of quadratic tets that are measured: misalignment, and slenderness. */
 OstStatus ost_metric_measure(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, OstSolverFacts *facts);
