@@ -66,6 +66,8 @@ typedef struct OstSolverFacts {
     double free_memory;  /* bytes, over the machines of all ranks */
     double thickness;    /* of quadratic tets: nodes across the body, by its volume over its surface; else 0 */
     double misalignment; /* how far edges are from the stiff directions (ost_metric_graph_misalignment): 1 along them */
+    double slenderness;  /* of quadratic tets whose nodes form no columns through the body: their length over its
+                            thickness (ost_metric_graph_slenderness) */
     int stops_early;     /* may iterations end where the mesh's error is larger? */
     int repeated;        /* are many stiffnesses solved with, for which a hierarchy can be kept and factors cannot? */
 } OstSolverFacts;

@@ -138,13 +138,14 @@ static OstSolverFacts facts_of(const OstSolver *solver)
     return facts;
 }
 
-/* Only where the plan depends on it: quadratic tets may be factored. */
-static OstStatus find_misalignment(const OstSolver *solver, OstSolverFacts *facts)
+/* Only where the plan depends on it: quadratic tets may be factored, whole or by their vertices. */
+static OstStatus measure(const OstSolver *solver, OstSolverFacts *facts)
 {
+    static const double thin = 14.0; /* nodes across: tets that are longer than the body is thick */
     const int matters = solver->options.method == OST_METHOD_AUTO && solver->geometry.coarse && facts->thickness > 0.0;
-    if (!matters || !(facts->anisotropy > 1.0))
+    if (!matters || facts->repeated || !(facts->anisotropy > 1.0 || facts->thickness < thin))
         return OST_SUCCESS;
-    return ost_metric_misalignment(solver->matrix, &solver->geometry, &facts->misalignment);
+    return ost_metric_measure(solver->matrix, &solver->geometry, facts);
 }
 
 static void tell_plan(const OstSolver *solver)
@@ -175,7 +176,7 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
     OstStatus status = OST_SUCCESS;
     solver->steps = 0;
     OST_TRY(ost_geometry_renew(&solver->geometry));
-    OST_TRY(find_misalignment(solver, &facts));
+    OST_TRY(measure(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
     if (may_change(solver) && solver->aim.first > solver->plan.first)
         solver->plan.first = solver->aim.first;

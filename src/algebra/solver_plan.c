@@ -96,6 +96,12 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
     } else if (facts->unknowns < direct_below) {
         plan->first = OST_METHOD_DIRECT;
         say(plan, "%lld unknowns are fewer than %lld: factoring is fastest", unknowns, (long long)direct_below);
+    } else if (quick == OST_METHOD_TWO_LEVEL && !ost_solver_is_over_vertices(facts)) {
+        plan->first = OST_METHOD_TWO_LEVEL;
+        say(plan,
+            "%lld unknowns of quadratic tets, %.2g times as long as the body is thick: over vertices whose matrix is "
+            "factored about %.2g s, multigrid %.2g s",
+            unknowns, facts->slenderness, ost_solver_two_level_seconds(facts), ost_solver_multigrid_seconds(facts));
     } else if (quick == OST_METHOD_TWO_LEVEL) {
         plan->first = OST_METHOD_TWO_LEVEL;
         say(plan,

@@ -21,8 +21,16 @@ typedef struct Rate {
 static const Rate over_linear = {3e-6, 4e-7, 18.0, 1.3}, over_vertices = {6.5e-6, 4.8e-7, 13.0, 0.8},
                   over_factors = {5e-6, 9e-7, 20.0, 0.0};
 
-/* Vertices that turn have so many unknowns, and their factors' fronts so much work, for one of the quadratic tets. */
-static const double of_unknowns = 0.3, of_fronts = 0.17;
+/* Tets that are longer than the body is thick, from this length on: over linear tets 1 + slender x length^1.5 times the
+ * iterations (18 for a length of 3, 40 to 75 for 6, stopped early), up to over_nodes_from; then over aggregates of
+ * nodes. Single precision often does not suffice there, so that a hierarchy is set up twice. Plates, and a fern of
+ * 55,000 to 1.2 million unknowns. */
+static const double thin_from = 4.0, over_nodes_from = 6.0, slender = 0.65, slender_power = 1.5, set_up_again = 1.5;
+static const Rate over_aggregates = {1.5e-5, 2e-6, 24.0, 0.0};
+
+/* Vertices that turn have so many unknowns, and their factors' fronts so much work, for one of the quadratic tets; of
+ * thin bodies, whose leaves are factored one by one, between 0.14 (a plate) and 0.025 (the fern). */
+static const double of_unknowns = 0.3, of_fronts = 0.17, of_thin_fronts = 0.035;
 
 double ost_solver_vertex_unknowns(const OstSolverFacts *facts)
 {
@@ -51,16 +59,31 @@ int ost_solver_is_over_vertices(const OstSolverFacts *facts)
     return facts->misalignment > ost_metric_misaligned;
 }
 
+/* Of small bodies either takes a fraction of a second. */
+static int is_thin(const OstSolverFacts *facts)
+{
+    static const OstGlobal small = 40000;
+    return facts->unknowns > small && facts->slenderness > thin_from &&
+           facts->slenderness <= ost_metric_longest_of_vertices;
+}
+
 double ost_solver_multigrid_seconds(const OstSolverFacts *facts)
 {
-    return iterated(facts, ost_solver_is_over_vertices(facts) ? &over_vertices : &over_linear);
+    Rate longer = over_linear;
+    if (ost_solver_is_over_vertices(facts))
+        return iterated(facts, &over_vertices);
+    if (!is_thin(facts))
+        return iterated(facts, &over_linear);
+    longer.iterations *= 1.0 + slender * pow(facts->slenderness, slender_power);
+    return set_up_again * iterated(facts, facts->slenderness > over_nodes_from ? &over_aggregates : &longer);
 }
 
 double ost_solver_two_level_seconds(const OstSolverFacts *facts)
 {
     const double unknowns = (double)facts->unknowns;
-    if (!ost_solver_is_over_vertices(facts))
+    const int crosses = ost_solver_is_over_vertices(facts);
+    if (!crosses && !is_thin(facts))
         return INFINITY;
     return iterated(facts, &over_factors) + entry_second * ost_solver_vertex_unknowns(facts) +
-           of_fronts * front_second * pow(unknowns * facts->thickness, 1.5);
+           (crosses ? of_fronts : of_thin_fronts) * front_second * pow(unknowns * facts->thickness, 1.5);
 }

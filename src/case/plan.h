@@ -33,8 +33,14 @@ typedef struct OstPlanLevels {
 /* What multigrid coarsens. Where cells of quadratic tets are far longer than a wall is thick, or their edges cross
  * stiff directions, it takes aggregates of their nodes in place of the linear tets (algebra/multigrid/metric.c), and
  * where cells are longer still the columns of nodes through the wall, which are not coarsened further
- * (algebra/aggregation/columns.h). */
-typedef enum { OST_COARSEN_TETS, OST_COARSEN_NODES, OST_COARSEN_COLUMNS, OST_COARSEN_VERTICES } OstCoarsening;
+ * (algebra/aggregation/columns.h). In between it factors the matrix of the vertices, if that is quicker. */
+typedef enum {
+    OST_COARSEN_TETS,
+    OST_COARSEN_NODES,
+    OST_COARSEN_COLUMNS,
+    OST_COARSEN_VERTICES,
+    OST_COARSEN_FACTORS
+} OstCoarsening;
 
 typedef struct OstPlan {
     OstEffects effects;
@@ -93,6 +99,9 @@ void ost_plan_shape_size(const OstCase *c, OstGlobal *nodes, OstGlobal *tets);
 /* Local. Raises OST_LIMIT_EXCEEDED with the limit if Epetra and ML cannot number the unknowns of so many nodes on any
  * number of ranks; OST_INVALID_INPUT if the case expects its mesh from a program. */
 OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes);
+
+/* From this slenderness on nodes form columns through a wall. */
+extern const double ost_plan_longest_of_columns;
 
 /* Local. How long the cells of a shape are over its thickness, across the direction in which it is thinnest, and cells
  * through that; zeros for a mesh file. */

@@ -67,6 +67,9 @@ static void count_recovered(const OstCase *c, OstEffectFacts *facts)
  * 1.5 to 2.0 at 100, 2.8 to 5.6 at 1000, 7.6 at 1e4, 22 at 1e5, 67 to 97 at 1e6. */
 static const double usual_crossing = 0.07;
 
+/* What the solver measures of a shape's cells, whose diagonals are longer than they are. */
+static const double of_diagonals = 1.35;
+
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
     const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
@@ -97,6 +100,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     ost_plan_materials(c, mesh, &facts, &plan->facts);
     if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > 1.0)
         plan->facts.misalignment = 1.0 + usual_crossing * sqrt(plan->facts.anisotropy);
+    if (mesh->quadratic && plan->slenderness < ost_plan_longest_of_columns)
+        plan->facts.slenderness = of_diagonals * plan->slenderness;
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
     count_springs(c, &facts);

@@ -40,8 +40,9 @@ static const double quadratic_transient = 200.0;
 
 /* Multigrid takes aggregates of quadratic tets' nodes where cells are longer than so many thicknesses, and columns
  * where they are longer than so many; what a node has then on top, at the peak, and what where it goes over vertices
- * that turn. Measured. */
-static const double longest = 5.0, longest_of_columns = 8.0, of_coarsening[4] = {0.0, 1900.0, 3200.0, 1050.0};
+ * that turn, in a thin body factored. Measured. */
+static const double longest = 5.0, of_coarsening[5] = {0.0, 1900.0, 3200.0, 1050.0, 900.0};
+const double ost_plan_longest_of_columns = 8.0;
 
 static const double plain_copies = 3.0; /* scalar copy for ML and Gauss-Seidel, and the hierarchy */
 
@@ -117,9 +118,11 @@ static OstCoarsening find_coarsening(const OstPlan *plan)
 {
     if (plan->quadratic && ost_solver_is_over_vertices(&plan->facts))
         return OST_COARSEN_VERTICES;
+    if (plan->quadratic && plan->solver.first == OST_METHOD_TWO_LEVEL)
+        return OST_COARSEN_FACTORS;
     if (!plan->quadratic || plan->slenderness < longest)
         return OST_COARSEN_TETS;
-    return plan->slenderness < longest_of_columns ? OST_COARSEN_NODES : OST_COARSEN_COLUMNS;
+    return plan->slenderness < ost_plan_longest_of_columns ? OST_COARSEN_NODES : OST_COARSEN_COLUMNS;
 }
 
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field)

@@ -234,9 +234,10 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
         const double beyond = excess(errors, &result->answer);
         if (beyond <= 1.0)
             return OST_SUCCESS;
-        if (!(beyond < most_beyond))
+        const int again = !errors->known && round == 0; /* by a hierarchy of more digits, if this one is indefinite */
+        if (!(beyond < most_beyond || again))
             break;
-        ost_solve_stop_tighten(stop, 0.5 * result->solve.algebraic_error / beyond);
+        ost_solve_stop_tighten(stop, 0.5 * result->solve.algebraic_error / (again ? 1.0 : beyond));
     }
     return run_solver(analysis, NULL, 1, result);
 }

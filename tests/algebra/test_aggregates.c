@@ -89,6 +89,21 @@ static void flat_bricks_at_the_surface_are_noticed(void **state)
     assert_true(flatness[1] > 5.0);
 }
 
+/* The same: seventeen bricks lie through it, and a diagonal of one is as long as a twelfth of the plate. */
+static void the_length_of_bricks_over_the_thickness_of_the_body_is_measured(void **state)
+{
+    double length[3];
+    const double squares[3] = {1.0, 1e-2, 1e-4};
+    for (int k = 0; k < 3; k++) {
+        OstMetricGraph *graph = cube_graph((double[3]){1.0, 1.0, squares[k]});
+        assert_success(ost_metric_graph_slenderness(graph, &length[k]));
+        ost_metric_graph_destroy(&graph);
+    }
+    assert_true(length[0] < 0.2);
+    assert_close(length[2] / length[1], 10.0, 1.0);
+    assert_true(length[2] > 0.8 * 100.0 / 12.0 && length[2] < 1.2 * 100.0 / 12.0);
+}
+
 /* Every second layer of bricks is a thousandth as thick as the others: the two nodes above each other stay together, in
  * aggregates and in blocks. */
 static void the_two_sides_of_a_flat_layer_stay_together(void **state)
@@ -299,6 +314,7 @@ static void a_metric_that_measures_nothing_is_refused(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(edges_off_the_stiff_directions_are_noticed),
     cmocka_unit_test(flat_bricks_at_the_surface_are_noticed),
+    cmocka_unit_test(the_length_of_bricks_over_the_thickness_of_the_body_is_measured),
     cmocka_unit_test(the_two_sides_of_a_flat_layer_stay_together),
     cmocka_unit_test(every_node_is_in_one_aggregate_and_sizes_meet_the_target),
     cmocka_unit_test(aggregates_are_round_in_the_metric_and_long_along_the_stiff_axis),

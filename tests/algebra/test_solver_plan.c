@@ -182,7 +182,37 @@ static void vertices_are_factored_where_edges_are_far_off_the_stiff_directions(v
     assert_int_equal(plan_of(OST_METHOD_AUTO, &facts).first, OST_METHOD_METRIC);
 }
 
+/* A fern: over linear tets 7 iterations, a hierarchy with more digits, 40 iterations and another strategy; over its
+ * vertices 4 iterations. */
+static void vertices_are_factored_where_tets_are_longer_than_the_body_is_thick(void **state)
+{
+    (void)state;
+    const OstSolverFacts fern = {.unknowns = 482223,
+                                 .anisotropy = 1.0,
+                                 .poisson = 0.3,
+                                 .thickness = 9.0,
+                                 .misalignment = 1.0,
+                                 .slenderness = 5.9,
+                                 .stops_early = 1};
+    const OstSolverPlan plan = plan_of(OST_METHOD_AUTO, &fern);
+    assert_int_equal(plan.first, OST_METHOD_TWO_LEVEL);
+    assert_true(has_reason(&plan, "5.9 times as long as the body is thick"));
+    static const double others[] = {0.0, 3.0, 30.0};
+    for (int k = 0; k < 3; k++) {
+        OstSolverFacts other = fern;
+        other.slenderness = others[k];
+        assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    }
+    OstSolverFacts other = fern;
+    other.repeated = 1;
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+    other = fern;
+    other.free_memory = 1e9;
+    assert_int_equal(plan_of(OST_METHOD_AUTO, &other).first, OST_METHOD_METRIC);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(vertices_are_factored_where_tets_are_longer_than_the_body_is_thick),
     cmocka_unit_test(the_quicker_of_factors_and_multigrid_is_planned),
     cmocka_unit_test(vertices_are_factored_where_edges_are_far_off_the_stiff_directions),
     cmocka_unit_test(few_quadratic_tets_off_the_axes_are_factored_and_no_others),

@@ -15,4 +15,9 @@ OstStatus ost_metric_graph_misalignment(const OstMetricGraph *graph, double *mea
  * spread in the widest direction over that along the normal, in the metric. About 1 in regular meshes. */
 OstStatus ost_metric_graph_flatness(const OstMetricGraph *graph, double *mean);
 
+/* Collective. How long what lies at the surface is over the thickness of the body there, in the metric: the geometric
+ * mean over the surface, of nodes at random. The thickness is found by steps from node to node, straight through the
+ * body. 0 where there is no such node. */
+OstStatus ost_metric_graph_slenderness(const OstMetricGraph *graph, double *mean);
+
 #endif

@@ -31,6 +31,9 @@ typedef enum Correction { LINEAR_TETS, TURNING_VERTICES, AGGREGATES } Correction
  * that. Turning vertices do not bend as one through the thickness. A beam 100 : 1 of 140 x 2 x 2 hexes, 1000 times
  * stiffer across: 7.2, and 352 iterations over linear tets, 46 without. */
 static const double longest = 5.0;
+/* With the vertices' matrix factored they do well a while: condition 2 for a length of 3, 6 for 6, 36 for 13, 85 for
+ * 30, 850 for 54 (plates; aggregates 51 and 98 for the last two). */
+const double ost_metric_longest_of_vertices = 15.0;
 /* Linear tets in a plate, and how much longer than thick they are, in the metric: from this on, the softest motion of a
  * smoother's block has less energy than single precision holds. A plate 1000 : 1 of 24 x 24 x 2 hexes: 140, and 40
  * iterations; 1000 times stiffer across, nu 0.45: 790, and 619 iterations, 44 over columns. */
@@ -184,14 +187,17 @@ static OstStatus choose_correction(const OstMetric *metric, const OstMetricGraph
 {
     static const char *const name[] = {"linear tets", "vertices that also turn", "aggregates of quadratic tets' nodes"};
     const OstMethod method = metric->options.method;
-    double misalignment, length;
+    double misalignment, length, slenderness = 0.0;
     int is_plate = 0;
     OST_TRY(ost_metric_graph_misalignment(graph, &misalignment));
     OST_TRY(find_length(graph, facts, &length));
+    if (method == OST_METHOD_TWO_LEVEL)
+        OST_TRY(ost_metric_graph_slenderness(graph, &slenderness));
     const int crosses = misalignment > ost_metric_misaligned;
+    const int bends = crosses || (method == OST_METHOD_TWO_LEVEL && slenderness <= ost_metric_longest_of_vertices);
     *locks = length > longest;
-    OST_TRY(crosses && *locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
-    if (is_plate || (!crosses && (*locks || method == OST_METHOD_STRONG)))
+    OST_TRY(bends && *locks ? has_columns(graph, &is_plate) : OST_SUCCESS);
+    if (is_plate || (!bends && (*locks || method == OST_METHOD_STRONG)))
         *correction = AGGREGATES;
     else
         *correction = crosses || method == OST_METHOD_TWO_LEVEL ? TURNING_VERTICES : LINEAR_TETS;
@@ -291,11 +297,18 @@ done:
     return status;
 }
 
-OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, double *mean)
+OstStatus ost_metric_measure(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, OstSolverFacts *facts)
 {
     OstMetricGraph *graph = NULL;
-    OST_TRY(ost_metric_graph_create(matrix, geometry, &graph));
-    const OstStatus status = ost_metric_graph_misalignment(graph, mean);
+    int is_plate = 0;
+    OstStatus status;
+    OST_TRY_DONE(ost_metric_graph_create(matrix, geometry, &graph));
+    OST_TRY_DONE(ost_metric_graph_misalignment(graph, &facts->misalignment));
+    OST_TRY_DONE(ost_metric_graph_slenderness(graph, &facts->slenderness));
+    OST_TRY_DONE(has_columns(graph, &is_plate));
+    if (is_plate)
+        facts->slenderness = 0.0;
+done:
     ost_metric_graph_destroy(&graph);
     return status;
 }

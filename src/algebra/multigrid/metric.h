@@ -14,8 +14,11 @@ typedef struct OstMetric OstMetric;
 /* Quadratic tets whose edges are further off the stiff directions go over vertices that turn, not over linear tets. */
 extern const double ost_metric_misaligned;
 
-/* Collective. How far the matrix's edges are from the stiff directions (ost_metric_graph_misalignment). */
-OstStatus ost_metric_misalignment(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, double *mean);
+/* Up to this length over the thickness of the body vertices that turn are a good coarse level, once factored. */
+extern const double ost_metric_longest_of_vertices;
+
+/* Collective. Fills in the facts of quadratic tets that are measured: misalignment, and slenderness. */
+OstStatus ost_metric_measure(const OstBlockMatrix *matrix, const OstSolverGeometry *geometry, OstSolverFacts *facts);
 
 /* Collective. The matrix stays the caller's and must outlive the solver. Raises OST_INVALID_INPUT if a coordinate or
  * metric is not usable or a diagonal block is not positive definite. */
