@@ -118,13 +118,14 @@ static OstStatus tet_metrics(const void *data, const OstMeshChunk *chunk, const 
     return ost_scene_locate_axes(source->c, status);
 }
 
-static double stiffest(const OstMaterial *material)
+/* The smallest Young's modulus: a part moves as a rigid body where that is far above what is around. */
+static double rigidity(const OstMaterial *material)
 {
     const double *e = material->constants.youngs_modulus;
-    return fmax(e[0], fmax(e[1], e[2]));
+    return fmin(e[0], fmin(e[1], e[2]));
 }
 
-/* The largest Young's modulus of each tet. Numbers of a field that make none are refused later, with their tet. */
+/* The smallest Young's modulus of each tet. Numbers of a field that make none are refused later, with their tet. */
 static OstStatus tet_stiffness(const void *data, const OstMeshChunk *chunk, double *stiffness)
 {
     const Source *source = data;
@@ -134,7 +135,7 @@ static OstStatus tet_stiffness(const void *data, const OstMeshChunk *chunk, doub
             region = chunk->tet_region[t];
             stated = ost_case_material_of(source->c, chunk->regions.name[region]);
         }
-        stiffness[t] = stiffest(&source->materials->material[region]);
+        stiffness[t] = rigidity(&source->materials->material[region]);
         if (stated && stated->modulus.field)
             stiffness[t] *= ost_scene_chunk_modulus(source->c, chunk, &stated->modulus, t);
     }
@@ -151,7 +152,7 @@ static OstStatus partition(const OstCase *c, const OstSceneMaterials *materials,
     for (int r = 0; r < (*chunk)->regions.count; r++) {
         const OstCaseMaterial *stated = ost_case_material_of(c, (*chunk)->regions.name[r]);
         any[0] |= has_direction(*chunk, materials, r);
-        any[1] |= stiffest(&materials->material[r]) != stiffest(&materials->material[0]);
+        any[1] |= rigidity(&materials->material[r]) != rigidity(&materials->material[0]);
         any[1] |= stated && stated->modulus.field;
     }
     OST_TRY(ost_max_ints((*chunk)->ctx, 2, any)); /* a rank without tets has no axes */

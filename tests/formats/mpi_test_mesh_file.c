@@ -84,7 +84,8 @@ static void all_ranks_fail_together(void **state)
     assert_failure(ost_mesh_file_read(ctx, write_text("bad.msh", "$MeshFormat\n"), &chunk, &materials),
                    OST_INVALID_INPUT, "bad.msh:2");
     assert_failure(ost_mesh_file_read(ctx, scratch("none.vtkhdf"), &chunk, &materials), OST_FILE_FAILED, "none.vtkhdf");
-    assert_failure(ost_mesh_file_read(ctx, "mesh.obj", &chunk, &materials), OST_INVALID_INPUT, "tetgen -pq on the .stl");
+    assert_failure(ost_mesh_file_read(ctx, "mesh.obj", &chunk, &materials), OST_INVALID_INPUT,
+                   "tetgen -pq on the .stl");
 }
 
 static OstGlobal range_count;
