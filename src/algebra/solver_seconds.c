@@ -12,13 +12,13 @@ static const double front_second = 7e-9, entry_second = 8.5e-6;
 
 /* Setup, and an iteration, of an unknown; iterations to 1e-8, and by which power of the misalignment they grow. Over
  * linear tets 16 iterations for isotropic bodies, 10 to 31 where the mesh follows stiff axes, 33 and 50 at a
- * misalignment of 1.5 and 2; over vertices that turn 19 to 48 at 3 to 5 (gears, brackets, spindles and pins of 9,000 to
- * 99,000 unknowns), and stopped early 36, 95 and 182 at 7.6, 22 and 68 (a bracket; 60 at 67 a pin). Vertices whose
+ * misalignment of 1.5 and 2; over vertices that turn 21 to 41 at 3 to 5 (gears, brackets, spindles and pins of 9,000 to
+ * 99,000 unknowns), and stopped early 32, 84 and 145 at 7.6, 22 and 68 (a bracket; 60 at 67 a pin). Vertices whose
  * matrix is factored take 4 to 15, stopped early, whatever it is. */
 typedef struct Rate {
     double setup, iteration, iterations, misaligned;
 } Rate;
-static const Rate over_linear = {3e-6, 4e-7, 18.0, 1.3}, over_vertices = {6.5e-6, 4.8e-7, 13.0, 0.8},
+static const Rate over_linear = {3e-6, 4e-7, 18.0, 1.3}, over_vertices = {4e-6, 3.7e-7, 7.5, 1.0},
                   over_factors = {5e-6, 9e-7, 20.0, 0.0};
 
 /* Tets that are longer than the body is thick, from this length on: over linear tets 1 + slender x length^1.5 times the
