@@ -12,8 +12,12 @@
     "loads: [{on: {boundary: zmax}, total_force: [0.003, 0, 0.01]}]\n"                           \
     "large_rotation: off\naccuracy: {algebraic_fraction: 0}\noutput: {fields: [displacement]}\n" \
     "solver: {factor_memory: 1e-6}\n"                                                            \
-    "materials:\n  - {region: block, youngs_modulus: 1, poissons_ratio: 0.3}\n"
+    "materials:\n"
 
+#define EVEN CUBE "  - {region: block, youngs_modulus: 1, poissons_ratio: 0.3}\n"
+#define FIBROUS                                                                  \
+    CUBE "  - {region: block, youngs_modulus: [1, 1, 1e3], poissons_ratio: 0.3," \
+         " axes: {euler: {degrees: [35, 50, 20]}}}\n"
 #define CORE(modulus) "  - {region: core, youngs_modulus: " modulus ", poissons_ratio: 0.3}\n"
 
 enum { CELLS = 12 };
@@ -48,13 +52,15 @@ static void contrast_takes_few_iterations(void **state)
         Cores cores;
         int most;
     } bodies[] = {
-        {"64 inclusions, 1e9 times stiffer", CUBE CORE("1e9"), 1, {3, 2}, 40},
-        {"216 of one cell, 1e9", CUBE CORE("1e9"), 1, {2, 1}, 50},
-        {"216 of one cell, 1e6", CUBE CORE("1e6"), 1, {2, 1}, 25},
-        {"8 of 4 cells, 1e9", CUBE CORE("1e9"), 1, {6, 4}, 40},
-        {"27, 1e9 times softer", CUBE CORE("1e-9"), 1, {4, 2}, 25},
-        {"64, 1e9 times stiffer", CUBE CORE("1e9"), 2, {3, 2}, 45},
-        {"216 of one cell, 1e6", CUBE CORE("1e6"), 2, {2, 1}, 30},
+        {"64 inclusions, 1e9 times stiffer", EVEN CORE("1e9"), 1, {3, 2}, 40},
+        {"216 of one cell, 1e9", EVEN CORE("1e9"), 1, {2, 1}, 50},
+        {"216 of one cell, 1e6", EVEN CORE("1e6"), 1, {2, 1}, 25},
+        {"8 of 4 cells, 1e9", EVEN CORE("1e9"), 1, {6, 4}, 40},
+        {"27, 1e9 times softer", EVEN CORE("1e-9"), 1, {4, 2}, 25},
+        {"8 of 4 cells in fibres, 1e6", FIBROUS CORE("1e6"), 1, {6, 4}, 25},
+        {"8 of 4 cells in fibres, 1e6", FIBROUS CORE("1e6"), 2, {6, 4}, 30},
+        {"64, 1e9 times stiffer", EVEN CORE("1e9"), 2, {3, 2}, 45},
+        {"216 of one cell, 1e6", EVEN CORE("1e6"), 2, {2, 1}, 30},
     };
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
         check_iterations(bodies[i].name, bodies[i].text, bodies[i].order, bodies[i].most, add_core, &bodies[i].cores);
