@@ -69,6 +69,8 @@ typedef struct OstAnswerError {
     int region;                /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;
     double place[3]; /* centroid of the tet with the largest share */
+    double cut_off;  /* not in any of these: how much larger, as a share of its volume, the body would be if its surface
+                        were curved where faces meet at less than 40 degrees */
 } OstAnswerError;
 
 /* Where the body is nearest to failure by one criterion: by how much the load may grow until the mean stress of a tet

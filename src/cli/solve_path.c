@@ -60,7 +60,7 @@ static OstStatus write_step(const OstScene *scene, const char *output, OstPath *
 static void warn_of_step(OstContext *ctx, int number, double t, const OstResult *result)
 {
     char text[OST_LONGEST_WARNING];
-    for (int w = 1; w < OST_WARNINGS; w++)
+    for (int w = OST_WARNINGS_OF_ALL_STEPS; w < OST_WARNINGS; w++)
         if (ost_result_warning(result, w, text))
             ost_warn(ctx, "step %d, at t = %g: %s", number, t, text);
 }

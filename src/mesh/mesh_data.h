@@ -160,6 +160,11 @@ void ost_surface_destroy(OstSurface **surface);
 OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces);
 OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces);
 
+/* Collective. How much larger the body would be, as a share of its volume, if its surface were smooth wherever faces
+ * meet at less than 40 degrees, as where plane faces stand for a curved surface: what they cut off. Less than 0: what
+ * they add in hollows. */
+OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share);
+
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);
 

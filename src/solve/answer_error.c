@@ -192,6 +192,8 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known)
+        OST_TRY_DONE(ost_mesh_cut_off(result->mesh, &result->answer.cut_off));
+    if (result->answer.known)
         OST_TRY_DONE(move_stiffness(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))
         OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/reduce.h"
+#include "mesh/mesh_data.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Faces that meet at a larger angle (radians; 40 degrees) meet at an edge of the body, and not within a curved surface.
+ */
+static const double sharpest = 0.698;
+
+/* One of the three sides of a face. */
+typedef struct Side {
+    OstLocal low, high; /* its vertices */
+    double along[3];    /* from one to the other, counter-clockwise seen from outside */
+    double normal[3];   /* of the face, in the middle of the side; of length one */
+    double width;       /* how far the face reaches from it */
+} Side;
+
+static void cross(const double *a, const double *b, double *c)
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* What follows a side of the face inwards, in its middle: of a quadratic face the derivative of its shape functions. */
+static void find_inwards(const OstMesh *mesh, const OstLocal *face, int nodes, int side, double *inwards)
+{
+    const double *x[6];
+    for (int n = 0; n < nodes; n++)
+        x[n] = mesh->coordinates + 3 * (size_t)face[n];
+    const int from = side, to = (side + 1) % 3, far = (side + 2) % 3;
+    for (int i = 0; i < 3; i++)
+        inwards[i] = nodes == 3 ? x[far][i] - x[from][i]
+                                : 2.0 * (x[3 + to][i] + x[3 + far][i] - x[3 + from][i]) - x[from][i] - x[far][i];
+}
+
+static void find_side(const OstMesh *mesh, const OstLocal *face, int nodes, int number, Side *side)
+{
+    const OstLocal from = face[number], to = face[(number + 1) % 3];
+    double inwards[3];
+    for (int i = 0; i < 3; i++)
+        side->along[i] =
+            mesh->coordinates[3 * (size_t)to + (size_t)i] - mesh->coordinates[3 * (size_t)from + (size_t)i];
+    find_inwards(mesh, face, nodes, number, inwards);
+    cross(side->along, inwards, side->normal);
+    const double area = sqrt(dot(side->normal, side->normal)), length = sqrt(dot(side->along, side->along));
+    for (int i = 0; i < 3; i++)
+        side->normal[i] /= area;
+    side->width = area / length;
+    side->low = from < to ? from : to;
+    side->high = from < to ? to : from;
+}
+
+/* Of a side that this rank owns it has the faces on both sides. */
+static OstLocal list_sides(const OstMesh *mesh, const OstSurface *surface, Side *sides)
+{
+    OstLocal count = 0;
+    for (OstLocal f = 0; f < surface->count; f++) {
+        const OstLocal *face = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
+        for (int s = 0; s < 3; s++)
+            if (ost_mesh_owns(mesh, 2, (const OstGlobal[2]){face[s], face[(s + 1) % 3]}))
+                find_side(mesh, face, surface->nodes_per_face, s, &sides[count++]);
+    }
+    return count;
+}
+
+static int compare_sides(const void *a, const void *b)
+{
+    const Side *x = a, *y = b;
+    return x->low != y->low ? (x->low > y->low) - (x->low < y->low) : (x->high > y->high) - (x->high < y->high);
+}
+
+/* Between a smooth surface that bends by an angle across a side, and the faces beside it: c³ / (12 R) for each length
+ * of a cylinder of radius R, of which the faces are chords c. */
+static double volume_at(const Side *a, const Side *b)
+{
+    double turn[3];
+    cross(a->normal, b->normal, turn);
+    const double length = sqrt(dot(a->along, a->along));
+    const double angle = atan2(dot(turn, a->along) / length, dot(a->normal, b->normal));
+    if (!(fabs(angle) < sharpest))
+        return 0.0;
+    return angle * length * (a->width * a->width - a->width * b->width + b->width * b->width) / 12.0;
+}
+
+static double cut_off_volume(Side *sides, OstLocal count)
+{
+    double volume = 0.0;
+    qsort(sides, (size_t)count, sizeof *sides, compare_sides);
+    for (OstLocal first = 0, end; first < count; first = end) {
+        for (end = first + 1; end < count && compare_sides(&sides[first], &sides[end]) == 0;)
+            end++;
+        if (end == first + 2)
+            volume += volume_at(&sides[first], &sides[first + 1]);
+    }
+    return volume;
+}
+
+OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share)
+{
+    const OstSurface *surface = NULL;
+    Side *sides = NULL;
+    double volume[2] = {0.0, 0.0};
+    *share = 0.0;
+    OST_TRY(ost_mesh_surface(mesh, &surface));
+    OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &sides, 3 * (size_t)surface->count));
+    if (status == OST_SUCCESS) {
+        volume[0] = cut_off_volume(sides, list_sides(mesh, surface, sides));
+        for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
+            volume[1] += ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet));
+        status = ost_sum(mesh->ctx, 2, volume);
+    }
+    OST_FREE(sides);
+    if (status == OST_SUCCESS && volume[1] > 0.0)
+        *share = volume[0] / volume[1];
+    return status;
+}
