@@ -306,8 +306,14 @@ static OstStatus hand_out(Search *search, double *surplus)
 /* What e adds to displacements and stresses. */
 static OstStatus hand_out_all(Search *search, const OstProblem *state, const OstSurplus *surplus)
 {
+    const OstMesh *mesh = state->mesh;
     OstOperator at_state = search->estimate->stiffness;
     at_state.problem = state;
+    if (surplus->stress)
+        memset(surplus->stress, 0, 6 * (size_t)mesh->owned_tets * sizeof *surplus->stress);
+    if (surplus->node_stress)
+        memset(surplus->node_stress, 0,
+               6 * (size_t)mesh->nodes_per_tet * (size_t)mesh->tet_count * sizeof *surplus->node_stress);
     if (surplus->stress || surplus->node_stress)
         ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions,
                                 search->longer * search->steps.size, surplus->node_stress, surplus->stress);
@@ -330,6 +336,14 @@ static OstStatus hand_out_mixed(Search *search, double t, const double *u, const
     OST_THEN(hand_out_all(search, &state, surplus));
     OST_FREE(of_tets);
     return status;
+}
+
+void ost_estimate_add(const OstEstimate *estimate, const double *error, const OstSurplus *surplus)
+{
+    for (size_t i = 0; i < 3 * (size_t)estimate->problem->mesh->node_count && surplus->displacement; i++)
+        surplus->displacement[i] += error[i];
+    if ((surplus->stress || surplus->node_stress) && !estimate->problem->pressures)
+        ost_operator_add_stress(&estimate->stiffness, error, NULL, 1.0, surplus->node_stress, surplus->stress);
 }
 
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,

@@ -61,6 +61,10 @@ typedef struct OstSurplus {
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,
                             const OstSurplus *surplus);
 
+/* Local. Adds what the error of the equations, a displacement (3 × node_count, ghosts included), adds to displacements
+ * and stresses; of a mixed form, to displacements. Linear theory. */
+void ost_estimate_add(const OstEstimate *estimate, const double *error, const OstSurplus *surplus);
+
 /* Collective. By how much the exact value of a quantity of interest is larger than that of u, by the adjoint problem: z
  * is the displacement whose load (or given motion) is that of the quantity, e_z its surplus, and the error is the work
  * of u's residual on e_z (R. Becker and R. Rannacher, An optimal control approach to a posteriori error estimation,

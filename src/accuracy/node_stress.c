@@ -135,7 +135,8 @@ static void find_added(Visit *visit, OstSimd *found)
     const double *base = visit->operator->turned_by;
     OstSimd moved[3 * OST_MAX_TET_NODES], more[3 * OST_MAX_FUNCTIONS], slope[9 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(&visit->batch, nodes, visit->u, moved);
-    gather_functions(visit->operator->complement, &visit->batch, visit->w, more);
+    if (visit->w)
+        gather_functions(visit->operator->complement, &visit->batch, visit->w, more);
     for (int a = 0; a < nodes; a++)
         find_slope(visit->element, &visit->batch, a, moved, visit->functions, more, slope + 9 * a);
     for (int n = 0; n < 9 * nodes; n++)
@@ -152,13 +153,11 @@ static void find_added(Visit *visit, OstSimd *found)
 }
 
 /* Of a polynomial's values at the nodes: of degree 1 by the vertices, of degree 2 by the middles of the edges too. */
-static void take_mean(int nodes, const OstSimd *found, int slot, double mean[6])
+static void add_mean(int nodes, const OstSimd *found, int slot, double mean[6])
 {
-    for (int p = 0; p < 6; p++) {
-        mean[p] = 0.0;
+    for (int p = 0; p < 6; p++)
         for (int a = 0; a < nodes; a++)
             mean[p] += (nodes == 4 ? 0.25 : a < 4 ? -0.05 : 0.2) * found[6 * a + p][slot];
-    }
 }
 
 void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
@@ -171,7 +170,7 @@ void ost_operator_add_stress(const OstOperator *operator, const double * u, cons
                    .u = u,
                    .w = w,
                    .factor = factor,
-                   .functions = ost_complement_per_tet(operator->complement)};
+                   .functions = w ? ost_complement_per_tet(operator->complement) : 0};
     const int nodes = visit.element->nodes;
     const size_t width = 6 * (size_t)nodes;
     const OstLocal end = at_nodes ? mesh->tet_count : mesh->owned_tets;
@@ -191,9 +190,9 @@ void ost_operator_add_stress(const OstOperator *operator, const double * u, cons
         for (int slot = 0; slot < count; slot++) {
             const size_t tet = (size_t)(first + slot);
             for (size_t n = 0; n < width && at_nodes; n++)
-                at_nodes[width * tet + n] = (float)found[n][slot];
+                at_nodes[width * tet + n] += (float)found[n][slot];
             if (mean && first + slot < mesh->owned_tets)
-                take_mean(nodes, found, slot, mean + 6 * tet);
+                add_mean(nodes, found, slot, mean + 6 * tet);
         }
     }
 }

@@ -46,9 +46,9 @@ OstStatus ost_operator_blocks(const OstOperator *operator, float * factor);
 /* Local. Of each owned tet, twice the strain energy of a displacement. */
 void ost_operator_energy(const OstOperator *operator, const double * u, const float *w, double *energy);
 
-/* Local. What `factor` times a displacement, and the pressure of a mixed form's field, add to the stress, in a frame
- * that turns with the tet where rotations are large. Of each tet, ghosts included, at its nodes, 6 numbers each, not
- * over the unit; and the mean over each owned tet. Either may be NULL. */
+/* Local. Adds what `factor` times a displacement, and the pressure of a mixed form's field, add to the stress, in a
+ * frame that turns with the tet where rotations are large. Of each tet, ghosts included, at its nodes, 6 numbers each,
+ * not over the unit; and the mean over each owned tet. Either may be NULL, as may `w`: no functions. */
 void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
                              float *at_nodes, double *mean);
 

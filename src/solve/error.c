@@ -289,6 +289,8 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     OST_TRY_DONE(once       ? measure(&search, 1.0, errors)
                  : is_asked ? measure_asked(&search, errors)
                             : measure_all(&search, is_rounding, errors));
+    if (solved->error)
+        memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     if (once)
         goto done;
     errors->asked = is_asked;

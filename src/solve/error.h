@@ -24,6 +24,7 @@ typedef struct OstSolved {
     double *pressure;     /* of a mixed form; pressures->count, ghosts included; and of the tets' vertices, which */
     double *of_tets;      /* the problem's field has */
     double **internal; /* becomes the internal forces of the displacement, 3 × owned_nodes, where they were summed */
+    double *error;     /* becomes the error found, 3 × node_count, ghosts included; or NULL */
 } OstSolved;
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
                           OstErrors *errors);

@@ -194,46 +194,60 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     return solved;
 }
 
-static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, OstErrors *errors)
+/* `error`: becomes that of the displacement, 3 × node_count; or NULL. */
+static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, double *error, OstErrors *errors)
 {
     const OstLinear *linear = analysis->work;
-    const OstSolved solved = {&result->solve,   linear->rhs,      linear->v,        result->displacement,
-                              linear->pressure, result->pressure, &result->internal};
+    const OstSolved solved = {&result->solve,   linear->rhs,      linear->v,         result->displacement,
+                              linear->pressure, result->pressure, &result->internal, error};
     OstProblem state = *analysis->problem; /* with the pressure reached, if there is one */
     state.field = result->field;
     OST_FREE(result->internal);
     ost_together_gather(analysis->ctx); /* from here on all load cases have the same to do */
     if (linear->enclosed) { /* what the solver has estimated: nothing tells the mean pressure, so none of its error */
-        const double error = result->solve.error_estimate;
-        *errors = (OstErrors){.known = error > 0.0, .displacement = error, .reaction = error, .stress = error};
+        const double estimate = result->solve.error_estimate;
+        *errors =
+            (OstErrors){.known = estimate > 0.0, .displacement = estimate, .reaction = estimate, .stress = estimate};
         return OST_SUCCESS;
     }
     return linear->volume ? ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, once, errors)
                           : ost_find_errors(&state, linear->stiffness.solver, &solved, once, errors);
 }
 
+/* Where stresses are watched, what the equations leave of them is no more than this share of the discretisation error,
+ * or small. */
+static const double of_watched = 0.1, small_stress = 1e-3;
+
 /* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
  * energy, of reactions, of rounding. By how much an error exceeds what is good enough; INFINITY: nobody knows. */
-static double excess(const OstErrors *errors, const OstAnswerError *answer)
+static double excess(const OstErrors *errors, const OstResult *result)
 {
+    const OstAnswerError *answer = &result->answer;
     const double of_displacement = errors->displacement / fmax(answer->displacement, 0.1 * answer->relative);
-    const double of_forces = fmax(errors->reaction, errors->stress) / ost_least_digit;
+    double of_forces = fmax(errors->reaction, errors->stress) / ost_least_digit;
+    if (result->stress_surplus || result->node_stress_surplus)
+        of_forces = fmax(of_forces, errors->stress / fmax(of_watched * answer->relative, small_stress));
     return errors->known ? fmax(of_displacement, of_forces) : INFINITY;
 }
 
 /* Solves until the error of the equations is small beside that of the discretisation. Where that proves too early, goes
- * on to a smaller one, and in the end to the residual asked for. */
-static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, OstResult *result, OstErrors *errors)
+ * on to a smaller one, and in the end to the residual asked for. `error`: room for 3 × node_count where something is
+ * watched: what the stop leaves is then in its error; else NULL. */
+static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, double *error, OstResult *result,
+                               OstErrors *errors)
 {
     enum { ROUNDS = 3 };
     for (int round = 0; round < ROUNDS; round++) {
         OST_TRY(run_solver(analysis, &stop->stop, round > 0 || begins_at_start(analysis), result));
         if (!result->solve.stopped)
             return OST_SUCCESS;
-        OST_TRY(find_errors(analysis, result, 1, errors));
-        const double beyond = excess(errors, &result->answer);
-        if (beyond <= 1.0)
+        OST_TRY(find_errors(analysis, result, 1, error, errors));
+        const double beyond = excess(errors, result);
+        if (beyond <= 1.0) {
+            if (error)
+                ost_estimate_add(stop->estimate, error, &stop->surplus);
             return OST_SUCCESS;
+        }
         const int again = !errors->known && round == 0; /* by a hierarchy of more digits, if this one is indefinite */
         if (!(beyond < most_beyond || again))
             break;
@@ -248,13 +262,19 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
     const OstLinear *linear = analysis->work;
     OstProblem state = *problem; /* with the pressure reached, if there is one */
     OstSolveStop stop;
+    double *error = NULL;
     state.field = result->field;
     OST_TRY(ost_result_allow_error(problem, result));
+    if (result->surplus)
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &error, 3 * (size_t)problem->mesh->node_count)));
     const OstSurplus surplus = ost_result_surplus(result);
-    OST_TRY(ost_solve_stop_open(&state, linear->stiffness.solver, analysis->options.algebraic_fraction,
-                                analysis->estimate, &surplus, &result->answer, &stop));
-    const OstStatus solved = solve_to_stop(analysis, &stop, result, errors);
-    ost_solve_stop_close(&stop);
+    OstStatus solved = ost_solve_stop_open(&state, linear->stiffness.solver, analysis->options.algebraic_fraction,
+                                           analysis->estimate, &surplus, &result->answer, &stop);
+    if (solved == OST_SUCCESS) {
+        solved = solve_to_stop(analysis, &stop, error, result, errors);
+        ost_solve_stop_close(&stop);
+    }
+    OST_FREE(error);
     return solved;
 }
 
@@ -284,7 +304,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (!result->reached)
         return solved;
     if (solved == OST_SUCCESS && !result->solve.stopped)
-        OST_TRY(find_errors(analysis, result, 0, &errors));
+        OST_TRY(find_errors(analysis, result, 0, NULL, &errors));
     OST_TRY(describe_rhs(problem, linear, solved_for));
     if (!linear->enclosed)
         solved_for->errors = errors;

@@ -172,6 +172,8 @@ OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, co
     OstStatus status = make_room(&search);
     OST_THEN(find_residuals(&search));
     OST_THEN(once ? measure(&search, 1.0, errors) : measure_all(&search, errors));
+    if (status == OST_SUCCESS && solved->error)
+        memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     release(&search);
     return status;
 }
