@@ -56,8 +56,33 @@ def mixed_forms_state_their_errors(folder):
     check(run("--mixed", "--size", "5000", "tube", program=GRID).exit_code == 2, "--mixed has no sizes")
 
 
+# A bar on an elastic foundation, and one that its supports hold without a force.
+BAR = """mesh: {{block: {{size: [1, 0.3, 0.3], divisions: [6, 2, 2]}}}}
+materials: [{{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}}]
+{held}
+loads: [{{on: {{boundary: {load}}}, {force}}}]
+large_rotation: off
+output: {{file: bar.vtkhdf}}
+"""
+
+
+def case_files_are_judged(folder):
+    slides = "".join(f"  - {{on: {{boundary: {side}}}, slide: {normal}}}\n"
+                     for side, normal in (("xmin", [1, 0, 0]), ("ymin", [0, 1, 0]), ("zmin", [0, 0, 1])))
+    for held, load, force in (("springs: [{on: {boundary: xmin}, foundation: 1e5}]", "xmax", "total_force: [1, 2, 3]"),
+                              ("constraints:\n" + slides, "xmax", "total_force: [0, 0, 0.1]"),
+                              ("constraints:\n" + slides, "[xmax, xmin]", "pressure: 1")):
+        path = os.path.join(folder, "bar.yaml")
+        with open(path, "w") as stream:
+            stream.write(BAR.format(held=held, load=load, force=force))
+        judged = run(path, program=GRID)
+        check(judged.exit_code == 0 and "errors           displacement" in judged.output and "nan" not in judged.output,
+              f"{held}: {judged.output}{judged.errors}")
+
+
 def main():
     folder = new_folder()
+    case_files_are_judged(folder)
     two = grid(folder, 2, "tube", "slivers", "stiff")
     one = two if SANITIZED else grid(folder, 1)
     sound = [name for name, point in one.items() if not point["flawed"]]
