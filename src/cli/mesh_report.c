@@ -119,6 +119,7 @@ OstStatus ost_mesh_report_make(const OstMesh *mesh, OstMeshReport *counts)
     OST_TRY(add_up(mesh, counts));
     OST_TRY(ost_mesh_bounds(mesh, counts->low, counts->high));
     OST_TRY(ost_mesh_surface_faces(mesh, &counts->surface_faces));
+    OST_TRY(ost_mesh_cut_off(mesh, &counts->cut_off));
     OST_TRY(ost_mesh_find_misfits(mesh, NULL, &counts->misfits));
     OST_TRY(ost_mesh_count_coincident(mesh, NULL, &counts->coincident, &counts->tolerance));
     return ost_components_create(mesh, &counts->components);
@@ -177,6 +178,14 @@ static void print_misfits(const OstMesh *mesh, const OstMisfits *misfits)
                ost_cell_words(mesh, misfits->neighbour, cells[1]));
 }
 
+static void print_cut_off(const OstMeshReport *counts)
+{
+    static const double least = 5e-4;
+    if (fabs(counts->cut_off) > least)
+        printf("  %.2g %% %s if the surface were curved where its faces meet at less than 40 degrees\n",
+               100.0 * fabs(counts->cut_off), counts->cut_off > 0.0 ? "larger" : "smaller");
+}
+
 void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path)
 {
     printf("%s: %lld %s tets, %lld nodes, %.0f faces on the surface\n", path, (long long)mesh->global_tets,
@@ -184,6 +193,7 @@ void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, con
     printf("  from (%g, %g, %g) to (%g, %g, %g), volume %g, edges %g to %g\n", counts->low[0], counts->low[1],
            counts->low[2], counts->high[0], counts->high[1], counts->high[2], counts->volume, counts->shortest,
            counts->longest);
+    print_cut_off(counts);
     puts("\nRegions");
     for (int r = 0; r < mesh->regions.count; r++)
         printf("  %-24s %12lld tets    volume %g\n", mesh->regions.name[r], (long long)counts->region_tets[r],
@@ -236,7 +246,7 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
                                         items[mesh->boundaries[b].dimension], "count",
                                         (json_int_t)counts->boundary_items[b], "area", counts->boundary_area[b]));
     json_t *root = json_pack(
-        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:o}",
+        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:f, s:o}",
         "file", ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets,
         "order", mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
         counts->low[1], counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume",
@@ -244,7 +254,7 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
         quality_json(counts), "regions", regions, "boundaries", boundaries, "components",
         parts_json(counts->components), "coincident_vertices", (json_int_t)counts->coincident, "coincident_within",
         counts->tolerance, "cracked_faces", (json_int_t)counts->misfits.cracked, "misfit_faces",
-        (json_int_t)counts->misfits.faces, "warnings", ost_json_warnings(mesh->ctx));
+        (json_int_t)counts->misfits.faces, "cut_off", counts->cut_off, "warnings", ost_json_warnings(mesh->ctx));
     if (!root)
         return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", path);

@@ -132,6 +132,8 @@ def plane_faces(folder):
         warnings = json.loads(run("solve", "column.yaml", "-q", "--json", "-", folder=folder).output)["warnings"]
         check([text for text in warnings if "meant to be curved" in text] == [text for text in warnings if warned and
               warned in text] and (warned is None or len(warnings) == 1), f"order {order}: {warnings}")
+        looked = run("mesh", "column.vtkhdf", folder=folder).output
+        check(("4.7 % larger if the surface were curved" in looked) == (order == 1), looked)
 
 
 main()
