@@ -11,6 +11,11 @@
  * steps, is added to the mass matrix's inverse; the steps leave out the smooth pressures, of which T knows nothing. */
 typedef struct OstLocalSchur OstLocalSchur;
 
+/* Local. For ost_coupling_schur_solve: where most nodes around a pressure are fixed, or far stiffer, S is below the
+ * mass matrix by about as much as the diagonal of T is. *held has a number of 1 or more for each owned pressure; NULL
+ * where the system has no scaling. */
+OstStatus ost_pressures_held(const OstCgSystem *system, const OstCoupling *coupling, double **held);
+
 /* Collective. *local is NULL where the diagonals of T and S are not apart, or the system has no scaling. */
 OstStatus ost_local_schur_create(const OstCgSystem *system, const OstCoupling *coupling, OstLocalSchur **local);
 void ost_local_schur_destroy(OstLocalSchur **local);

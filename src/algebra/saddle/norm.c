@@ -36,7 +36,7 @@ OstStatus ost_saddle_size(const OstBlockMatrix *matrix, const OstSaddle *saddle,
     const size_t n = 3 * (size_t)coupling->unknowns, m = (size_t)coupling->rows, mg = (size_t)coupling->columns;
     double *memory = NULL, squares[OST_SADDLE_SQUARES], mean;
     OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &memory, n + mg + 3 * m)));
-    OstStatus status = ost_coupling_schur_solve(coupling, saddle->g, memory + n, memory + n + mg);
+    OstStatus status = ost_coupling_schur_solve(coupling, NULL, saddle->g, memory + n, memory + n + mg);
     OST_THEN(ost_saddle_squares(coupling, f, saddle->g, memory + n, memory, squares));
     OST_THEN(mean_diagonal(matrix, &mean));
     if (status == OST_SUCCESS)

@@ -49,7 +49,7 @@ static OstStatus precondition(Run *run, const double *r, double *z)
     ost_coupling_multiply(run->coupling, run->wide, z + n);
     for (size_t i = 0; i < m; i++)
         z[n + i] -= r[n + i];
-    OST_TRY(ost_coupling_schur_solve(run->coupling, z + n, run->q, run->work));
+    OST_TRY(ost_coupling_schur_solve(run->coupling, NULL, z + n, run->q, run->work));
     memcpy(z + n, run->q, m * sizeof *z);
     OST_TRY(ost_coupling_transpose(run->coupling, run->q, run->force));
     OST_TRY(ost_precondition(run->system, run->preconditioner, run->force, run->scaled, run->wide));
