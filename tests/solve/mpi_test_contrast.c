@@ -16,6 +16,16 @@
 
 #define CORE(modulus) "  - {region: core, youngs_modulus: " modulus ", poissons_ratio: 0.3}\n"
 
+/* Of ratio 1000 along axes that no edge follows. */
+#define TURNED                                                                                                 \
+    "mesh: {block: {size: [1, 1, 1], divisions: [12, 12, 12]}}\n"                                              \
+    "constraints: [{on: {boundary: zmin}, displacement: [0, 0, 0]}]\n"                                         \
+    "loads: [{on: {boundary: zmax}, total_force: [0.003, 0, 0.01]}]\n"                                         \
+    "large_rotation: off\naccuracy: {algebraic_fraction: 0}\noutput: {fields: [displacement]}\n"               \
+    "solver: {factor_memory: 1e-6}\nmaterials:\n"                                                              \
+    "  - {region: block, youngs_modulus: [1, 1, 1000], poissons_ratio: 0.3, axes: {euler: {degrees: [35, 50, " \
+    "20]}}}\n"
+
 enum { CELLS = 12 };
 
 typedef struct Cores {
@@ -55,6 +65,7 @@ static void contrast_takes_few_iterations(void **state)
         {"27, 1e9 times softer", CUBE CORE("1e-9"), 1, {4, 2}, 25},
         {"64, 1e9 times stiffer", CUBE CORE("1e9"), 2, {3, 2}, 45},
         {"216 of one cell, 1e6", CUBE CORE("1e6"), 2, {2, 1}, 30},
+        {"8 of 4 cells, 1e9 times stiffer than one of ratio 1000 that is turned", TURNED CORE("1e9"), 2, {6, 4}, 45},
     };
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
         check_iterations(bodies[i].name, bodies[i].text, bodies[i].order, bodies[i].most, add_core, &bodies[i].cores);
