@@ -3,6 +3,8 @@
 
 #include "hard_grid/grid.h"
 
+#include <string.h>
+
 /* Bodies without a factorisation; all but the last of nu = 1/2, by the mixed form. The plate used up its 500
  * iterations, as rounding had made the direction at hand and no pass began again; the beam, whose metric makes a strip
  * of it, had no aggregates that bend; of the checkerboard's pressures, next to far stiffer cells, the mass matrix knows
@@ -38,8 +40,24 @@ static void hard_bodies_are_solved_by_iterations(void **state)
     }
 }
 
+/* Rounding makes this plate's stiffness indefinite, which the factors of its columns find. The reason names that, and
+ * not how the strategy ended that went on from there. */
+static void the_reason_names_what_rounding_has_lost(void **state)
+{
+    (void)state;
+    const HardPoint point = {
+        .shape = hard_find_shape("plate"), .order = 2, .poisson = 2, .ratio = 1, .stiff = 2, .iterated = 1};
+    HardReading reading;
+    if (ost_size(ctx) > 1)
+        return; /* seconds */
+    assert_success(hard_read(ctx, &point, &reading));
+    assert_int_equal(reading.outcome, HARD_REFUSED);
+    assert_ptr_equal(strstr(reading.reason, "the stiffness is singular to rounding"), reading.reason);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(hard_bodies_are_solved_by_iterations),
+    cmocka_unit_test(the_reason_names_what_rounding_has_lost),
 };
 
 OST_TEST_MAIN(tests)
