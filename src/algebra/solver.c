@@ -301,14 +301,24 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
+static int is_singular(const OstSolver *solver, const OstGoal *goal)
+{
+    return goal->singular || solver->singular;
+}
+
+static OstStatus raise_singular(OstContext *ctx)
+{
+    return OST_RAISE(ctx, OST_NOT_CONVERGED,
+                     "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
+                     ost_rounding_remedy);
+}
+
 /* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
 static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
 {
     snprintf(step->outcome, sizeof step->outcome,
              "does not fit, and would not help: the stiffness is singular to rounding");
-    return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                     "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
-                     ost_rounding_remedy);
+    return raise_singular(ctx);
 }
 
 /* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
@@ -321,7 +331,7 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
     OstStatus status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
-    if (goal->singular || solver->singular)
+    if (is_singular(solver, goal))
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
     const OstMethod best = ost_solver_fastest(solver, report);
     if (best == OST_METHOD_AUTO)
@@ -431,6 +441,8 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     solver->scale = goal.scale;
     report_goal(&goal, stop->size, report);
     OST_THEN(ost_goal_verdict(&goal));
+    if (status == OST_NOT_CONVERGED && goal.end == OST_END_STALLED && is_singular(solver, &goal))
+        status = raise_singular(solver->ctx);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
     if (goal.crude || solver->saddle)

@@ -92,7 +92,7 @@ static void one_block_of_any_size_inverts_its_nodes(void **state)
         double *v = noise(level), *r = level_vector(level);
         ost_level_matrix_add(level, 1.0, v, r);
         assert_success(ost_metric_graph_create(problem.matrix, &problem.geometry, &graph));
-        assert_success(ost_smoother_blocks_create(level, graph, 1000.0, 0, &blocks));
+        assert_success(ost_smoother_blocks_create(level, graph, 1000.0, &blocks));
         assert_int_equal(blocks->count, 1);
         check_step(level, blocks, r, v);
         OST_FREE(v, r);

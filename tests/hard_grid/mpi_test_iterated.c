@@ -3,27 +3,28 @@
 
 #include "hard_grid/grid.h"
 
-/* Bodies of nu = 1/2 by the mixed form, without a factorisation. The plate used up its 500 iterations, as rounding had
- * made the direction at hand and no pass began again; the beam, whose metric makes a strip of it, had no aggregates
- * that bend; of the checkerboard's pressures, next to far stiffer cells, the mass matrix knows too little: it stated
- * errors of reactions 3000 times too large, after 304 iterations. The layers were given up as their preconditioner,
- * built with all digits, has eigenvalues that were taken for rounding. The second checkerboard stated errors of
- * stresses 2000 times too large. */
-static void hard_mixed_bodies_are_solved_by_iterations(void **state)
+#include <string.h>
+
+/* Bodies without a factorisation; all but the last of nu = 1/2, by the mixed form. The plate used up its 500
+ * iterations, as rounding had made the direction at hand and no pass began again; the beam, whose metric makes a strip
+ * of it, had no aggregates that bend; of the checkerboard's pressures, next to far stiffer cells, the mass matrix knows
+ * too little: it stated errors of reactions 3000 times too large, after 304 iterations. The layers were given up as
+ * their preconditioner, built with all digits, has eigenvalues that were taken for rounding. The second checkerboard
+ * stated errors of stresses 2000 times too large. Of the last body, single precision lost the inverses of the
+ * smoother's blocks, so that no preconditioner was positive definite. */
+static void hard_bodies_are_solved_by_iterations(void **state)
 {
     (void)state;
     static const struct {
         const char *shape;
-        int ratio, stiff, axes, most;
-    } bodies[] = {{"plate", 0, 0, 0, 180},
-                  {"beam", 2, 1, 0, 250},
-                  {"checker", 1, 0, 0, 220},
-                  {"layers", 2, 0, 1, 600},
-                  {"checker", 1, 1, 2, 400}};
+        int poisson, ratio, stiff, axes, most;
+    } bodies[] = {{"plate", HARD_INCOMPRESSIBLE, 0, 0, 0, 180},   {"beam", HARD_INCOMPRESSIBLE, 2, 1, 0, 250},
+                  {"checker", HARD_INCOMPRESSIBLE, 1, 0, 0, 220}, {"layers", HARD_INCOMPRESSIBLE, 2, 0, 1, 600},
+                  {"checker", HARD_INCOMPRESSIBLE, 1, 1, 2, 400}, {"layers", 1, 2, 2, 2, 400}};
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
         const HardPoint point = {.shape = hard_find_shape(bodies[i].shape),
                                  .order = 2,
-                                 .poisson = HARD_INCOMPRESSIBLE,
+                                 .poisson = bodies[i].poisson,
                                  .ratio = bodies[i].ratio,
                                  .stiff = bodies[i].stiff,
                                  .axes = bodies[i].axes,
@@ -39,8 +40,24 @@ static void hard_mixed_bodies_are_solved_by_iterations(void **state)
     }
 }
 
+/* Rounding makes this plate's stiffness indefinite, which the factors of its columns find. The reason names that, and
+ * not how the strategy ended that went on from there. */
+static void the_reason_names_what_rounding_has_lost(void **state)
+{
+    (void)state;
+    const HardPoint point = {
+        .shape = hard_find_shape("plate"), .order = 2, .poisson = 2, .ratio = 1, .stiff = 2, .iterated = 1};
+    HardReading reading;
+    if (ost_size(ctx) > 1)
+        return; /* seconds */
+    assert_success(hard_read(ctx, &point, &reading));
+    assert_int_equal(reading.outcome, HARD_REFUSED);
+    assert_ptr_equal(strstr(reading.reason, "the stiffness is singular to rounding"), reading.reason);
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(hard_mixed_bodies_are_solved_by_iterations),
+    cmocka_unit_test(hard_bodies_are_solved_by_iterations),
+    cmocka_unit_test(the_reason_names_what_rounding_has_lost),
 };
 
 OST_TEST_MAIN(tests)

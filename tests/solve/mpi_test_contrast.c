@@ -61,6 +61,7 @@ static void contrast_takes_few_iterations(void **state)
         {"8 of 4 cells in fibres, 1e6", FIBROUS CORE("1e6"), 2, {6, 4}, 30},
         {"64, 1e9 times stiffer", EVEN CORE("1e9"), 2, {3, 2}, 45},
         {"216 of one cell, 1e6", EVEN CORE("1e6"), 2, {2, 1}, 30},
+        {"8 of 4 cells in fibres, 1e9", FIBROUS CORE("1e9"), 2, {6, 4}, 45},
     };
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++)
         check_iterations(bodies[i].name, bodies[i].text, bodies[i].order, bodies[i].most, add_core, &bodies[i].cores);

@@ -12,7 +12,9 @@
 
 enum { MOST_STRIPS = 3 };
 
-static const double softening = 1e-6; /* relative, of the diagonal */
+/* A block that holds a whole stiff inclusion, or nodes of nearly inextensible fibres, may be nearly singular, and its
+ * inverse too large for single precision: so much of the diagonal is added to it. */
+static const double softening = 1e-6;
 
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
 {
@@ -124,14 +126,13 @@ static void invert_nodes(int size, int side, const double *a, double *inverse)
     }
 }
 
-/* A block that holds a whole stiff inclusion is nearly singular, and its inverse too large for single precision. */
 static void soften_dense(int side, double *dense)
 {
     for (int i = 0; i < side; i++)
         dense[(side + 1) * i] *= 1.0 + softening;
 }
 
-static OstStatus fill_blocks(const OstLevelMatrix *matrix, int soften, OstSmootherBlocks *blocks)
+static OstStatus fill_blocks(const OstLevelMatrix *matrix, OstSmootherBlocks *blocks)
 {
     OstLocal *of_node = NULL;
     double *dense = NULL;
@@ -148,8 +149,7 @@ static OstStatus fill_blocks(const OstLevelMatrix *matrix, int soften, OstSmooth
     for (OstLocal b = 0; b < blocks->count; b++) {
         const int side = blocks->size * (blocks->node_start[b + 1] - blocks->node_start[b]);
         gather_block(matrix, blocks, b, of_node, place, dense);
-        if (soften)
-            soften_dense(side, dense);
+        soften_dense(side, dense);
         if (invert_dense(side, dense, inverse) != 0) {
             gather_block(matrix, blocks, b, of_node, place, dense);
             invert_nodes(blocks->size, side, dense, inverse);
@@ -163,15 +163,14 @@ done:
     return status;
 }
 
-OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int soften,
-                                 OstSmootherBlocks **blocks)
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, OstSmootherBlocks **blocks)
 {
     OstStatus status;
     OST_TRY_DONE(OST_NEW(matrix->ctx, blocks, 1));
     (*blocks)->ctx = matrix->ctx;
     (*blocks)->size = matrix->size;
     OST_TRY_DONE(list_blocks(groups, matrix->rows, *blocks));
-    OST_TRY_DONE(fill_blocks(matrix, soften, *blocks));
+    OST_TRY_DONE(fill_blocks(matrix, *blocks));
 done:
     if (status != OST_SUCCESS)
         ost_smoother_blocks_destroy(blocks);
@@ -179,13 +178,13 @@ done:
 }
 
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                     int soften, OstSmootherBlocks **blocks)
+                                     OstSmootherBlocks **blocks)
 {
     const OstAggregateShape shape = {.target = target, .minimum = 1, .recentrings = 0, .together = OST_LARGEST_BLOCK};
     OstAggregates *groups = NULL;
     *blocks = NULL;
     OstStatus status = ost_aggregates_create(graph, &shape, &groups);
-    OST_THEN(ost_smoother_blocks_of(matrix, groups, soften || ost_metric_graph_is_uneven(graph), blocks));
+    OST_THEN(ost_smoother_blocks_of(matrix, groups, blocks));
     ost_aggregates_destroy(&groups);
     return status;
 }

@@ -19,15 +19,13 @@ typedef struct OstSmootherBlocks {
     float *value;         /* dense symmetric inverses, and padding */
 } OstSmootherBlocks;
 
-/* Local. Blocks of about `target` nodes, round in the graph's metric. If a block is not positive definite, its nodes'
- * blocks are inverted instead, and of those that are not either, the diagonal. `soften`: a block may be
- * nearly singular, as in an uneven graph. */
+/* Local. Blocks of about `target` nodes, round in the graph's metric. Blocks are softened a little. If one is not
+ * positive definite, its nodes' blocks are inverted instead, and of those that are not either, the diagonal. */
 OstStatus ost_smoother_blocks_create(const OstLevelMatrix *matrix, const OstMetricGraph *graph, double target,
-                                     int soften, OstSmootherBlocks **blocks);
+                                     OstSmootherBlocks **blocks);
 
 /* Local. The same with given groups of nodes, those of more than 24 split. */
-OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, int soften,
-                                 OstSmootherBlocks **blocks);
+OstStatus ost_smoother_blocks_of(const OstLevelMatrix *matrix, const OstAggregates *groups, OstSmootherBlocks **blocks);
 void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks);
 
 /* One step of an iteration: direction = keep × direction + add × B^-1 r, then x += direction. `from_zero`: both are 0

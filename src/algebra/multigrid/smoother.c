@@ -32,14 +32,13 @@ OstStatus ost_smoother_create_of(const OstLevelMatrix *matrix, const OstMetricGr
     OstContext *ctx = matrix->ctx;
     OstSmoother *made = NULL;
     *smoother = NULL;
-    const int soften = options->columns || ost_metric_graph_is_uneven(graph);
     OstStatus status = OST_NEW(ctx, &made, 1);
     OST_THEN(
         ost_level_vector_create(ctx, matrix->size, (size_t)matrix->rows + (size_t)matrix->columns, &made->residual));
     if (status == OST_SUCCESS && groups)
-        status = ost_smoother_blocks_of(matrix, groups, soften, &made->blocks);
+        status = ost_smoother_blocks_of(matrix, groups, &made->blocks);
     else if (status == OST_SUCCESS)
-        status = ost_smoother_blocks_create(matrix, graph, options->smoother_block_nodes, soften, &made->blocks);
+        status = ost_smoother_blocks_create(matrix, graph, options->smoother_block_nodes, &made->blocks);
     OST_TRY_DONE(ost_agree(ctx, status));
     made->matrix = matrix;
     made->direction = made->residual + ost_level_unknowns(matrix); /* which is the residual's padding */
