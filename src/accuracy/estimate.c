@@ -248,6 +248,14 @@ OstStatus ost_search_displacement(Search *search)
 /* An e below this share of u is rounding. */
 static const double rounding = 1e-12;
 
+/* |u + e|², e being orthogonal to u where u is at rest at its supports, and to u + e where nothing but supports moves
+ * the body; no less than |e|². `square` is that, `energy` that of u. */
+static double whole_square(const OstProblem *problem, double energy, double square)
+{
+    const int is_moved_only = problem->scene->c->load_count == 0 && !ost_field_is_eigenstrained(problem->field);
+    return is_moved_only ? fmax(2.0 * energy - square, square) : 2.0 * energy + square;
+}
+
 /* `square` is in the case's units. */
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
 {
@@ -273,7 +281,8 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     found->energy_norm = sqrt(square);
     found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
     /* Where an eigenstrain is free the elastic energy is rounding, and e beside u tells so. */
-    found->relative = square > 0.0 && found->displacement > rounding ? sqrt(square / (square + 2.0 * energy)) : 0.0;
+    found->relative =
+        square > 0.0 && found->displacement > rounding ? sqrt(square / whole_square(problem, energy, square)) : 0.0;
     found->known = 1;
     return OST_SUCCESS;
 }

@@ -230,16 +230,18 @@ static OstStatus add_moment(const OstScene *scene, const OstComplement *compleme
     return status;
 }
 
-static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, double *force)
+/* A table has forces once there is a load that acts on the functions. */
+static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, double **force)
 {
     const OstLoad *load = &scene->c->loads[i];
-    OstStatus status = OST_SUCCESS;
-    if (ost_load_in_volume(load->kind))
-        status = add_body_load(scene, complement, load, force);
-    else if (scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD)
-        status = add_surface_load(scene, complement, load, force);
-    else if (scene->load_effect[i] == OST_EFFECT_MOMENT)
-        status = add_moment(scene, complement, load, force);
+    const int in_volume = ost_load_in_volume(load->kind), on_surface = scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD;
+    if (!in_volume && !on_surface && scene->load_effect[i] != OST_EFFECT_MOMENT)
+        return OST_SUCCESS;
+    OstStatus status = *force ? OST_SUCCESS : OST_NEW(scene->ctx, force, 3 * (size_t)complement->count);
+    OST_TRY(ost_agree(scene->ctx, status));
+    status = in_volume    ? add_body_load(scene, complement, load, *force)
+             : on_surface ? add_surface_load(scene, complement, load, *force)
+                          : add_moment(scene, complement, load, *force);
     return ost_agree(scene->ctx, status);
 }
 
@@ -260,13 +262,10 @@ OstStatus ost_surplus_loads_create(const OstProblem *problem, const OstComplemen
     const OstScene *scene = problem->scene;
     OstContext *ctx = problem->ctx;
     *loads = (OstSurplusLoads){.count = ost_problem_functions(problem)};
-    OstStatus status = OST_NEW(ctx, &loads->force, loads->count);
-    for (int k = 0; k < loads->count && status == OST_SUCCESS; k++)
-        status = OST_NEW(ctx, &loads->force[k], 3 * (size_t)complement->count);
-    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &loads->force, loads->count)));
     for (int i = 0; i < scene->c->load_count; i++)
         if (ost_effect_on(problem->effects, scene->load_effect[i]))
-            OST_TRY(add_load(scene, complement, i, loads->force[scene->c->loads[i].table]));
+            OST_TRY(add_load(scene, complement, i, &loads->force[scene->c->loads[i].table]));
     for (int i = 0; i < scene->c->spring_count; i++)
         if (scene->c->springs[i].kind == OST_SPRING_FOUNDATION &&
             ost_effect_on(problem->effects, OST_EFFECT_FOUNDATION))
@@ -346,7 +345,7 @@ void ost_surplus_loads_add(const OstSurplusLoads *loads, const OstProblem *probl
     const double *moves = ost_problem_is_linear(problem) ? NULL : u;
     for (int k = 0; k < loads->count; k++) {
         const double factor = ost_problem_factor(problem, k, t);
-        for (size_t i = 0; i < 3 * (size_t)complement->count; i++)
+        for (size_t i = 0; i < 3 * (size_t)complement->count && loads->force[k]; i++)
             force[i] += factor * loads->force[k][i];
         for (const OstFollower *follower = problem->follower; follower; follower = follower->next)
             if (follower->function == k)

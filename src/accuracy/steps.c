@@ -115,9 +115,9 @@ static OstStatus multiply_rows(OstSteps *steps)
 }
 
 /* z = B r on the rows, by half a cycle. */
-static OstStatus take_cycle(OstSteps *steps, int *found)
+static OstStatus take_cycle(OstSteps *steps, int brief, int *found)
 {
-    OST_TRY(ost_solver_precondition(steps->solver, 1, steps->r.rows, steps->z, found));
+    OST_TRY(ost_solver_precondition(steps->solver, brief, steps->r.rows, steps->z, found));
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;
@@ -132,7 +132,7 @@ static OstStatus precondition(OstSteps *steps)
     int found = 1;
     const int first = steps->stiffness->complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = steps->turns++;
     if (turn >= first && (turn - first) % 2 == 0)
-        OST_TRY(take_cycle(steps, &found));
+        OST_TRY(take_cycle(steps, 0, &found));
     else
         memset(steps->z, 0, steps->rows * sizeof *steps->z);
     steps->failed = !found;
@@ -190,13 +190,13 @@ OstStatus ost_steps_left(const OstSteps *steps, double *left)
     return ost_sum(steps->stiffness->problem->ctx, 1, left);
 }
 
-/* The next direction on the rows alone, or none: sets `weight`, r'B r, to 0. `gone` is the length of the step before.
- */
+/* The next direction on the rows alone, or none: sets `weight`, r'B r, to 0. `gone` is the length of the step before. A
+ * displacement is smooth, and found as well where the finest level is hardly smoothed. */
 static OstStatus turn_rows(OstSteps *steps, double gone)
 {
     double sums[2] = {0.0};
     int found = 0;
-    OST_TRY(take_cycle(steps, &found));
+    OST_TRY(take_cycle(steps, 1, &found));
     for (size_t i = 0; i < steps->rows && found; i++) {
         sums[0] += steps->r.rows[i] * steps->z[i];
         sums[1] += steps->q.rows[i] * steps->z[i];

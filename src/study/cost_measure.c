@@ -18,6 +18,18 @@ static void note(const OstMeter *meter, OstCostRun *run)
     ost_stage_sum(meter, run->phase);
 }
 
+/* In the norm of the energy, as the run tells it: of the mesh, and of equations that are solved to the tolerance. */
+static double estimate_of(const OstResult *result)
+{
+    const OstAnswerError *answer = &result->answer;
+    const double of_equations = result->solve.algebraic_error;
+    if (!answer->known)
+        return NAN;
+    return answer->energy_norm > 0.0 && isfinite(of_equations)
+               ? answer->relative * hypot(1.0, of_equations / answer->energy_norm)
+               : answer->relative;
+}
+
 static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult *result, OstCostRun *run)
 {
     run->unknowns = result->unknowns;
@@ -26,7 +38,7 @@ static OstStatus evaluate(OstCost *cost, const OstScene *scene, const OstResult 
     run->residual = result->solve.relative_residual;
     run->newton = result->newton;
     run->order = scene->mesh->nodes_per_tet == 10 ? 2 : 1;
-    run->estimate = result->answer.known ? result->answer.relative : NAN;
+    run->estimate = estimate_of(result);
     const double displacement_error =
         result->answer.known ? result->answer.displacement * result->largest_displacement : NAN;
     for (int w = 0; w < cost->c->watch_count && !cost->placed; w++)

@@ -238,6 +238,10 @@ static void the_cycle_is_symmetric_and_positive(void **state)
     const double of_half = global_dot(owned(a), x, mx) / xx;
     print_message("half a cycle: %.3f of the whole one's product\n", of_half);
     assert_true(of_half > 0.0);
+    assert_success(ost_cycle_apply_brief(cycle, y, my));
+    assert_true(global_dot(owned(a), y, my) > 0.0);
+    assert_success(ost_cycle_apply_half(cycle, x, my)); /* the brief one leaves the smoother as it was */
+    assert_close(global_dot(owned(a), x, my), of_half * xx, 1e-12 * xx);
     OST_FREE(x, y, mx, my);
     ost_cycle_destroy(&cycle);
     tear_down(&s);

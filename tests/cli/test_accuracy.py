@@ -58,3 +58,31 @@ check(report["accepted"], "the answer is one, though not as accurate")
 
 done, _ = solve("accuracy: {relative_error: 0.1}", "--max-time", "soon")
 check(done.exit_code == 2 and "found 'soon'" in done.errors, done.errors)
+
+# Where only supports move the body the answer has more energy than the exact one, by that of its error.
+BAR = """title: a bar whose end is moved
+mesh: {{block: {{size: [6, 1, 1], divisions: {divisions}}}}}
+element: {{order: {order}}}
+materials: [{{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}}]
+constraints:
+  - {{on: {{boundary: xmin}}, displacement: [0, 0, 0]}}
+  - {{on: {{boundary: xmax}}, displacement: [0, 0.01, 0]}}
+large_rotation: off
+"""
+
+
+def bend(divisions, order):
+    with open(os.path.join(folder, "bar.yaml"), "w", encoding="utf-8") as stream:
+        stream.write(BAR.format(divisions=divisions, order=order))
+    check(run("solve", "bar.yaml", "--json", "bar.json", folder=folder).exit_code == 0, "solved")
+    with open(os.path.join(folder, "bar.json"), encoding="utf-8") as stream:
+        found = json.load(stream)
+    return found["checks"]["strain_energy"], found["answer_error"]["relative"]
+
+
+energy, off = bend([18, 3, 3], 2)
+exact = energy * (1 - off**2)
+for divisions in ([9, 2, 2], [18, 3, 3]):
+    energy, off = bend(divisions, 1)
+    true = (energy / exact - 1) ** 0.5
+    check(0.9 < off / true < 1.1, f"{divisions}: {off} estimated, {true} true")

@@ -13,7 +13,7 @@
 
 enum { LARGEST_FACTORED = 50000 }; /* unknowns; where coarsening stopped at a larger level, that is smoothed instead */
 
-enum { HALF_DEGREE = 1 }; /* of the smoother of quadratic tets in half a cycle */
+enum { BRIEF_DEGREE = 1 }; /* of the finest level's smoother in half a cycle that is brief, or of quadratic tets */
 
 /* Bytes that the factors of a plate's columns may take, over those of the stiffness. */
 static const double of_stiffness = 2.0, little = 64e6; /* and so many at least */
@@ -226,23 +226,29 @@ static OstStatus apply_all(OstCycle *cycle, int half, int count, void *const *re
     return OST_SUCCESS;
 }
 
-/* OstServe, both. */
+/* OstServe, all three. */
 static OstStatus apply_whole(void *cycle, int count, void *const *request)
 {
     return apply_all(cycle, 0, count, request);
 }
 
-static OstStatus apply_half(void *data, int count, void *const *request)
+static OstStatus apply_brief(void *data, int count, void *const *request)
 {
     OstCycle *cycle = data;
-    OstSmoother *smoother = cycle->quadratic ? cycle->quadratic->smoother : NULL;
+    OstSmoother *smoother = cycle->level[0].smoother;
     const int degree = smoother ? smoother->degree : 0;
     if (smoother)
-        smoother->degree = HALF_DEGREE;
+        smoother->degree = BRIEF_DEGREE;
     const OstStatus status = apply_all(cycle, 1, count, request);
     if (smoother)
         smoother->degree = degree;
     return status;
+}
+
+static OstStatus apply_half(void *data, int count, void *const *request)
+{
+    const OstCycle *cycle = data;
+    return cycle->quadratic ? apply_brief(data, count, request) : apply_all(data, 1, count, request);
 }
 
 OstStatus ost_cycle_apply(void *data, const double *r, double *z)
@@ -257,6 +263,13 @@ OstStatus ost_cycle_apply_half(void *data, const double *r, double *z)
     OstCycle *cycle = data;
     Request request = {r, z};
     return ost_together(cycle->level[0].matrix->ctx, apply_half, OST_COLUMNS, cycle, &request);
+}
+
+OstStatus ost_cycle_apply_brief(void *data, const double *r, double *z)
+{
+    OstCycle *cycle = data;
+    Request request = {r, z};
+    return ost_together(cycle->level[0].matrix->ctx, apply_brief, OST_COLUMNS, cycle, &request);
 }
 
 void ost_cycle_strengthen(OstCycle *cycle, int more, double ratio)

@@ -19,9 +19,10 @@ void ost_cycle_destroy(OstCycle **cycle);
  * as `data`. */
 OstStatus ost_cycle_apply(void *data, const double *r, double *z);
 
-/* Collective. Half of it (algebra/trilinos/cycle.h), or, of quadratic tets, a cycle with fewer steps in both of their
- * smoothings; as OstPreconditioner's `half`. */
+/* Collective. Half of it (algebra/trilinos/cycle.h), as OstPreconditioner's `half`. The brief half, and that of
+ * quadratic tets, smooths the finest level by one step. */
 OstStatus ost_cycle_apply_half(void *data, const double *r, double *z);
+OstStatus ost_cycle_apply_brief(void *data, const double *r, double *z);
 
 /* Local. Raises the degree of the smoothers' polynomials by `more`, sets the width of their interval to `ratio`, and
  * raises its upper end. */

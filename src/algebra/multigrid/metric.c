@@ -332,6 +332,7 @@ void ost_metric_system(const OstMetric *metric, OstCgSystem *system, OstPrecondi
     *cycle = (OstPreconditioner){.data = metric->cycle,
                                  .apply = ost_cycle_apply,
                                  .half = ost_cycle_apply_half,
+                                 .brief = ost_cycle_apply_brief,
                                  .precise = metric->options.precise > 0};
 }
 
