@@ -28,7 +28,9 @@ typedef struct OstChecks {
     int finite;
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
-    double volume_ratio;     /* where rotations are large, deformed over undeformed volume, the mean of det F; else 0 */
+    double stiffening; /* if linear: how much stiffer stress makes the body as it turns, relative to its stiffness; less
+                          than 0: softer. 0 where an eigenstrain acts and OstNewtonReport was not asked for it */
+    double volume_ratio; /* where rotations are large, deformed over undeformed volume, the mean of det F; else 0 */
 } OstChecks;
 
 /* What was found out about large rotations, and what was done about them (large_rotation in docs/case.md). */
@@ -38,11 +40,12 @@ typedef struct OstNewtonReport {
     double accuracy;      /* what it was compared with */
     double linear_strain; /* largest strain and rotation (radians) of the linear solution */
     double linear_rotation;
-    int used;              /* was the nonlinear problem solved, by Newton's method? What follows is 0 if not. */
-    double reached;        /* load factor of the last state at rest: 1 is all of the load */
-    int load_steps;        /* taken */
-    int cut_backs;         /* load steps given up, and tried again half as large */
-    int iterations;        /* of Newton's method, given-up steps included */
+    double linear_stiffening; /* the OstChecks' stiffening of the linear solution */
+    int used;                 /* was the nonlinear problem solved, by Newton's method? What follows is 0 if not. */
+    double reached;           /* load factor of the last state at rest: 1 is all of the load */
+    int load_steps;           /* taken */
+    int cut_backs;            /* load steps given up, and tried again half as large */
+    int iterations;           /* of Newton's method, given-up steps included */
     int definite;          /* those of them with the stiffness made positive definite, the exact one being indefinite */
     int cuts;              /* of the line search */
     int linear_iterations; /* of the linear solver, over all of them */

@@ -7,6 +7,7 @@
 #include "core/json_file.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "output/load_case_files.h"
 #include "output/path_files.h"
 #include "problem/scene_data.h"
 #include "study/watch.h"
@@ -158,7 +159,10 @@ static void print_findings(const OstScene *scene, const Findings *findings)
            plural(mesh->regions.count), c->constraint_count, plural(c->constraint_count),
            (long long)findings->constrained, findings->constrained == 1 ? "vertex" : "vertices", springs, c->load_count,
            plural(c->load_count), ost_warning_count(scene->ctx) > 0 ? "; see the warnings" : "");
-    if (c->load_case_count > 0) {
+    if (c->load_case_count > 0 && ost_load_cases_in_one_file(c, findings->output)) {
+        printf("solve will write the fields of %d load case%s to %s, a step for each\n", c->load_case_count,
+               plural(c->load_case_count), findings->output);
+    } else if (c->load_case_count > 0) {
         char list[OST_LONGEST_PATH];
         ost_path_file_name(findings->output, OST_PATH_SERIES, sizeof list, list);
         printf("solve will write the fields of %d load case%s beside %s, listed in %s\n", c->load_case_count,
@@ -201,6 +205,14 @@ static OstStatus check_scene(const OstScene *scene, Findings *findings)
     return OST_SUCCESS;
 }
 
+/* The failure may come of what this load case alone has. */
+static OstStatus name_load_case(OstContext *ctx, OstStatus status, const char *name)
+{
+    char reason[OST_ERROR_TEXT_SIZE];
+    snprintf(reason, sizeof reason, "%s", ost_error_text(ctx));
+    return OST_RAISE(ctx, status, "load case '%s': %s", name, reason);
+}
+
 static OstStatus check_load_cases(const OstScene *scene, Findings *findings)
 {
     OstStatus status = OST_SUCCESS;
@@ -208,6 +220,8 @@ static OstStatus check_load_cases(const OstScene *scene, Findings *findings)
         OstScene *of_case = NULL;
         status = ost_scene_load_case(scene, k, &of_case);
         OST_THEN(check_scene(of_case, findings));
+        if (status != OST_SUCCESS)
+            status = name_load_case(scene->ctx, status, scene->c->load_cases[k].name);
         ost_scene_destroy(&of_case);
     }
     return status;

@@ -45,6 +45,7 @@ typedef enum {
     BY_MESHIO_MED,
     BY_MESHIO_AVS,
     BY_MESHIO_NETGEN,
+    BY_MESHIO_TECPLOT,
     MESH_SOLID,
     MESH_SURFACE,
     SURFACE_BY_MESHIO,
@@ -79,6 +80,9 @@ static const char *const way_words[] = {
         "convert it: python3 -c \"import meshio; m = meshio.read('%s'); m.cell_data['gmsh:physical'] = "
         "m.cell_data['netgen:index']; m.write('%.*s.msh', file_format='gmsh22')\" (Debian: "
         "python3-meshio)",
+    [BY_MESHIO_TECPLOT] =
+        "convert it: " MESHIO("%s", "%.*s") " (Debian: python3-meshio), or, where that fails, open it "
+                                            "in ParaView and save it as .vtu (File, Save Data)",
     [MESH_SOLID] = "mesh it: gmsh -3 %s -o %.*s.msh",
     [MESH_SURFACE] = "it holds a surface; fill it with tets: tetgen -pq %s and take %.*s.1.ele, or mesh it with gmsh",
     [SURFACE_BY_MESHIO] = "it holds a surface; convert it, python3 -c \"import meshio; "
@@ -124,8 +128,11 @@ static const struct {
     {".dato", "PERMAS", BY_MESHIO},
     {".ugrid", "UGRID", BY_MESHIO},
     {".mdpa", "Kratos", BY_MESHIO},
-    {".dat", "Tecplot (one of Nastran: name it .bdf; of Abaqus: .inp)", BY_MESHIO},
-    {".tec", "Tecplot", BY_MESHIO},
+    {".dat", "Tecplot (one of Nastran: name it .bdf; of Abaqus: .inp)", BY_MESHIO_TECPLOT},
+    {".tec", "Tecplot", BY_MESHIO_TECPLOT},
+    {".tp", "Tecplot", BY_PARAVIEW},
+    {".plt", "Tecplot (binary)", BY_PARAVIEW},
+    {".szplt", "Tecplot (binary)", BY_EXPORT},
     {".med", "MED (Salome, Code_Aster)", BY_MESHIO_HDF5},
     {".cgns", "CGNS", BY_PARAVIEW},
     {".p3d", "Plot3D", BY_PARAVIEW},
@@ -234,7 +241,7 @@ void ost_mesh_format_advice(const char *path, char *text, size_t size)
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
         if (has_ending(path, others[o].ending)) {
             const int used = snprintf(text, size, "files of %s are not read; ", others[o].what);
-            name_of(path, others[o].way <= BY_MESHIO_NETGEN, name, sizeof name);
+            name_of(path, others[o].way <= BY_MESHIO_TECPLOT, name, sizeof name);
             const int stem = others[o].way == FROM_ELMER ? 0 : (int)(strlen(name) - strlen(others[o].ending));
             if (used > 0 && (size_t)used < size)
                 snprintf(text + used, size - (size_t)used, way_words[others[o].way], name, stem, name);

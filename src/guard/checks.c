@@ -478,7 +478,8 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     TetSums tets = {.result = result, .also = also, .formulation = problem->formulation};
     if (is_summed && result->newton.judged) { /* of this displacement too, and not of all on a path */
         tets.is_judged = 1;
-        tets.largest = (OstLinearity){result->newton.linear_strain, result->newton.linear_rotation};
+        tets.largest =
+            (OstLinearity){.strain = result->newton.linear_strain, .rotation = result->newton.linear_rotation};
     }
     LinkForces links = {.links = problem->supports->links};
     /* What double precision attained, or the error of the answer made do with. */
@@ -511,6 +512,11 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     }
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
+    checks->stiffening = 0.0;
+    if (tets.is_judged)
+        checks->stiffening = result->newton.linear_stiffening;
+    else if (!body.turns && !ost_field_is_eigenstrained(problem->field))
+        checks->stiffening = ost_linearity_stiffening(&tets.largest);
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         add_node(result, &body, &links, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
                  magnitude + 3 * (size_t)n, sums);

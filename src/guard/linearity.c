@@ -5,6 +5,7 @@
 #include "core/kernel.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "element/large_rotation.h"
 #include "element/polar.h"
 #include "element/strain_batch.h"
 #include "mesh/mesh_data.h"
@@ -63,14 +64,54 @@ static inline void find_axis(const OstSimd matrix[9], int slot, double axis[3])
     }
 }
 
+/* Of stress on H'H - e², twice what the strain U - I has to second order. */
+static inline OstSimd stress_work(const OstSimd h[9], const OstSimd stress[6])
+{
+    OstSimd work = {0};
+    for (int p = 0; p < 6; p++) {
+        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3; /* 11 22 33 12 23 31 */
+        OstSimd both = {0};
+        for (int k = 0; k < 3; k++)
+            both += h[3 * k + i] * h[3 * k + j] - 0.25 * (h[3 * k + i] + h[3 * i + k]) * (h[3 * k + j] + h[3 * j + k]);
+        work += (p < 3 ? 1.0 : 2.0) * stress[p] * both;
+    }
+    return work;
+}
+
+/* Its integral over quadratic tets: the stress of a bent bar changes sign within a tet. */
+OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                                      const OstMeans *means, OstSimd *work)
+{
+    const OstElasticity *elasticity = &batch->elasticity;
+    const OstQuadrature *rule = element->rule(batch->x, elasticity);
+    *work = (OstSimd){0};
+    for (int q = 0; q < rule->count; q++) {
+        const int at = ost_elasticity_at(elasticity, q);
+        OstPoint point;
+        OstSimd gradient[9], strain[6], elastic[6], stress[6];
+        element->evaluate(batch->x, &rule->point[q], &point);
+        ost_displacement_gradient(element->nodes, &point, u, gradient);
+        for (int p = 0; p < 6; p++) {
+            const int i = p % 3, j = (i + 1) % 3;
+            strain[p] = p < 3 ? gradient[4 * i] : gradient[3 * i + j] + gradient[3 * j + i];
+        }
+        ost_elastic_strain(elasticity, at, strain, elastic);
+        ost_simd_stress(elasticity->c[at], elastic, stress);
+        for (int p = 0; p < 6 && elasticity->by_mean; p++)
+            stress[p] += means->stiff * elasticity->m[at][p];
+        *work += point.volume * stress_work(gradient, stress);
+    }
+}
+
 /* The angle by which each tet turns: half the curl by linear theory, that of R where rotations are large. */
 OST_KERNEL static void find_angles(const OstBatch *batch, int nodes, OstFormulation formulation, const OstSimd *u,
-                                   double angle[OST_SIMD_WIDTH])
+                                   const OstMeans *means, double angle[OST_SIMD_WIDTH], OstSimd *work)
 {
     OstSimd gradient[9], rotation[9];
     OstPolar polar;
     double axis[3];
     find_gradient(batch, nodes, u, gradient);
+    *work = means->volume * stress_work(gradient, means->stress);
     if (formulation != OST_FORMULATION_LINEAR) {
         ost_polar(gradient, &polar);
         ost_polar_rotation(&polar, rotation);
@@ -99,32 +140,42 @@ static double principal(const double e[6])
     return fmax(fabs(mean + 2.0 * size * cos(angle)), fabs(mean + 2.0 * size * cos(angle + third)));
 }
 
-static void add_tet(const OstSimd strain[6], double angle, int slot, OstLinearity *largest)
+/* A part that strains by less beside its rotation is rigid, and its stress rounding. */
+static const double least_strain = 1e-10;
+
+static void add_tet(const OstMeans *means, double angle, double work, int slot, OstLinearity *largest)
 {
     double e[6], square = 0.0;
     for (int p = 0; p < 6; p++) {
-        e[p] = strain[p][slot];
+        e[p] = means->strain[p][slot];
         square += (p < 3 ? 1.0 : 0.5) * e[p] * e[p];
     }
     largest->rotation = fmax(largest->rotation, angle);
     if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
         largest->strain = fmax(largest->strain, principal(e));
+    largest->energy += means->energy[slot] * means->volume[slot];
+    if (sqrt(square) > least_strain * angle)
+        largest->stiffening += 0.5 * work;
 }
 
 void ost_linearity_add(const OstBatch *batch, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                        const OstMeans *means, OstLinearity *largest)
 {
     double angle[OST_SIMD_WIDTH];
-    find_angles(batch, element->nodes, formulation, u, angle);
+    OstSimd work;
+    find_angles(batch, element->nodes, formulation, u, means, angle, &work);
+    if (element->nodes > 4 && formulation == OST_FORMULATION_LINEAR)
+        integrate_work(batch, element, u, means, &work);
     for (int slot = 0; slot < batch->count; slot++)
-        add_tet(means->strain, angle[slot], slot, largest);
+        add_tet(means, angle[slot], work[slot], slot, largest);
 }
 
 OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
 {
-    double both[2] = {largest->strain, largest->rotation};
-    OST_TRY(ost_max(ctx, 2, both));
-    *largest = (OstLinearity){both[0], both[1]};
+    double most[2] = {largest->strain, largest->rotation}, sums[2] = {largest->energy, largest->stiffening};
+    OST_TRY(ost_max(ctx, 2, most));
+    OST_TRY(ost_sum(ctx, 2, sums));
+    *largest = (OstLinearity){most[0], most[1], sums[0], sums[1]};
     return OST_SUCCESS;
 }
 
@@ -134,9 +185,15 @@ static void visit(void *largest, const OstBatch *batch, const OstElement *elemen
     ost_linearity_add(batch, element, OST_FORMULATION_LINEAR, u, means, largest);
 }
 
-OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, const double *u, OstLinearity *largest)
+OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                           OstLinearity *largest)
 {
-    *largest = (OstLinearity){0.0, 0.0};
+    *largest = (OstLinearity){0};
     ost_visit_means(mesh, field, 0.0, u, visit, largest);
+    if (ost_field_is_eigenstrained(field)) { /* the energy is that of the whole strain, the stress without e0's part */
+        OstLinearity stressed = {0};
+        ost_visit_means(mesh, field, t, u, visit, &stressed);
+        largest->stiffening = stressed.stiffening;
+    }
     return ost_linearity_agree(mesh->ctx, largest);
 }

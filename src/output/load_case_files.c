@@ -26,6 +26,7 @@ OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, Ost
     report->iterations = result->solve.iterations;
     report->newton_iterations = result->newton.iterations;
     report->nonzeros = result->solve.nonzeros;
+    report->failing = result->failure;
     report->watched = watched;
     if (file)
         OST_TRY(ost_copy_string(ctx, file, &report->file));
@@ -131,6 +132,22 @@ static double value_of(const OstLoadCaseReport *report, const char *name)
     return NAN;
 }
 
+/* Does any case say by how much its loads may grow? */
+static int knows_failure(int count, const OstLoadCaseReport *reports)
+{
+    int known = 0;
+    for (int k = 0; k < count; k++)
+        known = known || reports[k].failing.known;
+    return known;
+}
+
+/* The least factor of a criterion; NAN where it is not known, or nothing fails. */
+static double factor_of(const OstLoadCaseReport *report, int criterion)
+{
+    const double factor = report->failing.known ? report->failing.least[criterion].factor : NAN;
+    return factor < OST_MOST_LOAD_FACTOR ? factor : NAN;
+}
+
 static const char *state_of(const OstLoadCaseReport *report)
 {
     return report->status == OST_SUCCESS ? "accepted" : report->is_known ? "refused" : "failed";
@@ -139,6 +156,7 @@ static const char *state_of(const OstLoadCaseReport *report)
 typedef struct Table {
     int count;
     const OstLoadCaseReport *reports;
+    int failing; /* are there load factors? */
     Columns columns;
 } Table;
 
@@ -146,6 +164,8 @@ static OstStatus write_rows(FILE *file, const void *content)
 {
     const Table *table = content;
     fputs("case,status,largest_displacement,strain_energy,relative_error,newton_iterations,iterations", file);
+    if (table->failing)
+        fputs(",tsai_wu_load_factor,hill_load_factor,maximum_stress_load_factor", file);
     for (int w = 0; w < table->columns.count; w++) {
         fputc(',', file);
         ost_csv_text(file, table->columns.name[w]);
@@ -158,6 +178,8 @@ static OstStatus write_rows(FILE *file, const void *content)
         ost_csv_number(file, report->is_known ? report->strain_energy : NAN);
         ost_csv_number(file, report->is_known ? report->relative_error : NAN);
         fprintf(file, ",%d,%d", report->newton_iterations, report->iterations);
+        for (int c = 0; table->failing && c < OST_CRITERIA; c++)
+            ost_csv_number(file, factor_of(report, c));
         for (int w = 0; w < table->columns.count; w++)
             ost_csv_number(file, value_of(report, table->columns.name[w]));
         fputc('\n', file);
@@ -168,7 +190,7 @@ static OstStatus write_rows(FILE *file, const void *content)
 OstStatus ost_load_cases_write(const OstCase *c, int count, const OstLoadCaseReport *reports, const char *output)
 {
     OstContext *ctx = c->ctx;
-    Table table = {count, reports, {0}};
+    Table table = {count, reports, knows_failure(count, reports), {0}};
     char name[LONGEST_PATH];
     if (ost_rank(ctx) != 0)
         return OST_SUCCESS;
@@ -181,9 +203,28 @@ OstStatus ost_load_cases_write(const OstCase *c, int count, const OstLoadCaseRep
     return status;
 }
 
+/* Under which case the loads may grow by least, by each criterion. */
+static void print_first_to_fail(const Table *table)
+{
+    static const char *const word[OST_CRITERIA] = {
+        [OST_TSAI_WU] = "Tsai-Wu", [OST_HILL] = "Hill", [OST_MAXIMUM_STRESS] = "maximum stress"};
+    for (int c = 0; table->failing && c < OST_CRITERIA; c++) {
+        const OstLoadCaseReport *first = NULL;
+        for (int k = 0; k < table->count; k++)
+            if (isfinite(factor_of(&table->reports[k], c)) &&
+                (!first || factor_of(&table->reports[k], c) < factor_of(first, c)))
+                first = &table->reports[k];
+        if (first)
+            printf("  %-16s %s: the first case to fail is %s, at %.5g times its load\n", c == 0 ? "strength" : "",
+                   word[c], first->name, factor_of(first, c));
+    }
+}
+
 static void print_rows(const Table *table)
 {
     printf("  %-16s %14s %14s %9s %7s %7s", "case", "largest |u|", "strain energy", "off by", "Newton", "solver");
+    if (table->failing)
+        printf(" %9s %9s %9s", "Tsai-Wu", "Hill", "stress");
     for (int w = 0; w < table->columns.count; w++)
         printf(" %14.14s", table->columns.name[w]);
     puts("");
@@ -200,6 +241,11 @@ static void print_rows(const Table *table)
         else
             printf("%9s", "-");
         printf(" %7d %7d", report->newton_iterations, report->iterations);
+        for (int c = 0; table->failing && c < OST_CRITERIA; c++)
+            if (isfinite(factor_of(report, c)))
+                printf(" %9.4g", factor_of(report, c));
+            else
+                printf(" %9s", "-");
         for (int w = 0; w < table->columns.count; w++)
             if (isfinite(value_of(report, table->columns.name[w])))
                 printf(" %14.8g", value_of(report, table->columns.name[w]));
@@ -211,13 +257,14 @@ static void print_rows(const Table *table)
 
 void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output)
 {
-    Table table = {count, reports, {0}};
+    Table table = {count, reports, knows_failure(count, reports), {0}};
     char whole[LONGEST_PATH], csv[LONGEST_PATH];
     int written = 0;
     if (ost_rank(scene->ctx) != 0 || find_columns(scene->ctx, count, reports, &table.columns) != OST_SUCCESS)
         return;
     printf("\n%d load case%s\n", count, count == 1 ? "" : "s");
     print_rows(&table);
+    print_first_to_fail(&table);
     OST_FREE(table.columns.name);
     for (int k = 0; k < count; k++)
         written += reports[k].file != NULL;

@@ -140,18 +140,33 @@ static void describe_error(double error, char text[32])
         snprintf(text, 32, "by about %.2g %%", 100.0 * error);
 }
 
+/* "120 % stiffer" */
+static void describe_stiffening(double stiffening, char text[48])
+{
+    snprintf(text, 48, "%.2g %% %s", 100.0 * fabs(stiffening), stiffening < 0.0 ? "softer" : "stiffer");
+}
+
 int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
 {
     const double error = ost_linear_error(checks);
-    char off[32];
+    char off[32], stiffened[48];
     text[0] = '\0';
     if (!checks->linear || !checks->finite || !(error > small_error))
         return 0;
     describe_error(error, off);
-    snprintf(text, OST_LONGEST_WARNING,
-             "rotations are up to %.3g degrees and strains up to %.3g %%: linear theory, which takes both as small, "
-             "is off %s there; scale the loads down, or read the result as a direction",
-             checks->largest_rotation * degrees, 100.0 * checks->largest_strain, off);
+    describe_stiffening(checks->stiffening, stiffened);
+    if (fabs(checks->stiffening) >= error)
+        snprintf(
+            text, OST_LONGEST_WARNING,
+            "stress makes the body %s as it turns, by up to %.3g degrees: linear theory, which leaves that out, is "
+            "off %s; take large_rotation: on, or scale the loads down",
+            stiffened, checks->largest_rotation * degrees, off);
+    else
+        snprintf(
+            text, OST_LONGEST_WARNING,
+            "rotations are up to %.3g degrees and strains up to %.3g %%: linear theory, which takes both as small, "
+            "is off %s there; scale the loads down, or read the result as a direction",
+            checks->largest_rotation * degrees, 100.0 * checks->largest_strain, off);
     return 1;
 }
 
@@ -266,12 +281,16 @@ int ost_result_warning(const OstResult *result, int number, char text[OST_LONGES
 static void print_large_rotation(const OstScene *scene, const OstResult *result)
 {
     const OstNewtonReport *newton = &result->newton;
-    char off[32];
+    char off[32], stiffened[48];
     if (!newton->judged)
         return;
     describe_error(newton->linear_error, off);
-    printf("  large rotation   rotations up to %.3g degrees, strains up to %.3g %% by linear theory, which is off %s: ",
-           degrees * newton->linear_rotation, 100.0 * newton->linear_strain, off);
+    describe_stiffening(newton->linear_stiffening, stiffened);
+    printf("  large rotation   rotations up to %.3g degrees, strains up to %.3g %% by linear theory, which ",
+           degrees * newton->linear_rotation, 100.0 * newton->linear_strain);
+    if (fabs(newton->linear_stiffening) >= newton->linear_error)
+        printf("leaves out that stress makes the body %s as it turns, and ", stiffened);
+    printf("is off %s: ", off);
     if (!newton->used && newton->linear_error <= newton->accuracy)
         printf("no more than the %.2g %% allowed, solved linearly\n", 100.0 * newton->accuracy);
     else

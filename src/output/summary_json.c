@@ -61,7 +61,7 @@ static json_t *solver_json(const OstSolveReport *report)
 static json_t *checks_json(const OstChecks *checks)
 {
     return json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "relative_residual",
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "relative_residual",
         ost_json_number(checks->relative_residual), "rounding", ost_json_number(checks->rounding), "rigid_motion",
         ost_json_number(checks->rigid_motion), "displacement_error", ost_json_number(checks->displacement_error),
         "force_error", ost_json_number(checks->force_error), "load", vector_json(checks->load), "reaction",
@@ -70,7 +70,8 @@ static json_t *checks_json(const OstChecks *checks)
         ost_json_number(checks->linear ? checks->work : NAN), "energy_imbalance",
         ost_json_number(checks->linear ? checks->energy_imbalance : NAN), "finite", checks->finite, "largest_strain",
         ost_json_number(checks->largest_strain), "largest_rotation", ost_json_number(checks->largest_rotation),
-        "volume_ratio", checks->volume_ratio != 0.0 ? ost_json_number(checks->volume_ratio) : json_null());
+        "stiffening", ost_json_number(checks->linear ? checks->stiffening : NAN), "volume_ratio",
+        checks->volume_ratio != 0.0 ? ost_json_number(checks->volume_ratio) : json_null());
 }
 
 /* The error that the mesh makes; null: not estimated. */
@@ -111,12 +112,13 @@ static json_t *large_rotation_json(const OstNewtonReport *newton)
     if (!newton->judged)
         return json_null();
     return json_pack(
-        "{s:o, s:f, s:o, s:o, s:b, s:f, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:b, s:i, s:o, s:b, s:f}",
+        "{s:o, s:f, s:o, s:o, s:o, s:b, s:f, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:b, s:i, s:o, s:b, s:f}",
         "linear_error", ost_json_number(newton->linear_error), "accuracy", newton->accuracy, "linear_strain",
-        ost_json_number(newton->linear_strain), "linear_rotation", ost_json_number(newton->linear_rotation), "newton",
-        newton->used, "load_factor", newton->reached, "load_steps", newton->load_steps, "cut_backs", newton->cut_backs,
-        "newton_iterations", newton->iterations, "definite_iterations", newton->definite, "line_search_cuts",
-        newton->cuts, "linear_iterations", newton->linear_iterations, "setups", newton->setups, "newton_residual",
+        ost_json_number(newton->linear_strain), "linear_rotation", ost_json_number(newton->linear_rotation),
+        "linear_stiffening", ost_json_number(newton->linear_stiffening), "newton", newton->used, "load_factor",
+        newton->reached, "load_steps", newton->load_steps, "cut_backs", newton->cut_backs, "newton_iterations",
+        newton->iterations, "definite_iterations", newton->definite, "line_search_cuts", newton->cuts,
+        "linear_iterations", newton->linear_iterations, "setups", newton->setups, "newton_residual",
         ost_json_number(newton->relative_residual), "last_correction", ost_json_number(newton->change),
         "newton_rounding_limited", newton->rounding_limited, "jumps", newton->jumps, "jump_at",
         newton->jumps > 0 ? ost_json_number(newton->jump_at) : json_null(), "stability_unknown",

@@ -8,15 +8,18 @@
 #include "orthostat/problem.h"
 #include "orthostat/result.h"
 
+#include <math.h>
+
 /* Estimated relative error of linear theory, which takes strains and rotations as small. Rotated by an angle, a part
  * comes out longer by half the angle's square (a cantilever whose end turns by 0.5 bends 10 % too far: Mattiasson, Int.
  * J. Numer. Meth. Eng. 17, 1981, has 0.30172 of the length where linear theory has 1/3). A small strain e is e + e²/2
- * by Green's measure. */
+ * by Green's measure. Stress stiffens a body that turns under tension, or softens it: by linear theory, which leaves
+ * that out, it moves too far by as much, or not far enough. */
 static inline double ost_linear_error(const OstChecks *checks)
 {
     const double turned = 0.5 * checks->largest_rotation * checks->largest_rotation;
     const double strained = 0.5 * checks->largest_strain;
-    return turned > strained ? turned : strained;
+    return fmax(fmax(turned, strained), fabs(checks->stiffening));
 }
 
 /* Objections to solving a problem, or to an answer, in words. One may list all strategies that were tried. */

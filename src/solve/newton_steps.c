@@ -207,7 +207,7 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
         OST_TRY(ost_newton_solve(newton, definite, 1e-3, newton->residual, &found));
     for (size_t i = 0; i < count; i++)
         newton->candidate[i] += found ? newton->direction[i] : 0.0;
-    OST_TRY(ost_linearity_of(mesh, newton->problem->field, newton->candidate, &largest));
+    OST_TRY(ost_linearity_of(mesh, newton->problem->field, 0.0, newton->candidate, &largest));
     for (size_t i = 0; i < count; i++)
         state->slope[i] = newton->candidate[i] / (t - state->t);
     state->step = (t - state->t) * ost_newton_first_step(largest.rotation);
@@ -352,6 +352,7 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
     result->newton.accuracy = before.accuracy;
     result->newton.linear_strain = before.linear_strain;
     result->newton.linear_rotation = before.linear_rotation;
+    result->newton.linear_stiffening = before.linear_stiffening;
     result->solve = newton->solve;
     result->solve.iterations = newton->report.linear_iterations;
     result->solve.relative_residual = newton->report.relative_residual;

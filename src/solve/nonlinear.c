@@ -28,19 +28,24 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
 {
     OstLinearity largest;
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
-    const OstStatus status = ost_linearity_of(problem->mesh, problem->field, result->displacement, &largest);
+    const OstStatus status = ost_linearity_of(problem->mesh, problem->field, ost_problem_eigen_share(problem, result->t),
+                                              result->displacement, &largest);
     ost_ledger_leave(problem->ctx);
     OST_TRY(status);
-    const OstChecks as_linear = {.largest_strain = largest.strain, .largest_rotation = largest.rotation};
+    const OstChecks as_linear = {.largest_strain = largest.strain,
+                                 .largest_rotation = largest.rotation,
+                                 .stiffening = ost_linearity_stiffening(&largest)};
     result->newton.judged = 1;
     result->newton.linear_strain = largest.strain;
     result->newton.linear_rotation = largest.rotation;
+    result->newton.linear_stiffening = as_linear.stiffening;
     result->newton.linear_error = ost_linear_error(&as_linear);
     result->newton.accuracy = problem->accuracy;
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,
-        "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g: off by about %.2g (asked: %.2g)",
-        largest.rotation, largest.strain, result->newton.linear_error, problem->accuracy);
+        "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g, stiffened by %.3g: off by about "
+        "%.2g (asked: %.2g)",
+        largest.rotation, largest.strain, as_linear.stiffening, result->newton.linear_error, problem->accuracy);
     if (largest.strain > odd_strain)
         ost_warn(
             problem->ctx,

@@ -127,7 +127,7 @@ for ranks in fewer((1, 3)):
 # What is refused, where it stands.
 write(folder, "bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}), **FIELDS}))
 for eigenstrain, mesh, words in (
-        ("{field: swelling_}", "file: bar.msh", "there is no field 'swelling_'"),
+        ("{field: swelling_}", "file: bar.msh", "there is no field 'swelling_' on the elements, or on the nodes; there is 'few', 'two', "),
         ("{field: few}", "file: bar.msh", "the field 'few' has no number for tet 105 of region 'lower'"),
         ("{field: two}", "file: bar.msh", "the field 'two' has 2 numbers a tet, expected 1, 3, 6 or 9"),
         ("{per_unit: 1, change: {field: swelling}}", "file: bar.msh", "the field 'swelling' has 3 numbers a tet; a change is one"),

@@ -1,5 +1,6 @@
 """Linear theory takes strains and rotations as small: where they are not, summary and JSON say so in plain words."""
 import json
+import math
 import os
 
 from program import check, new_folder, run, write
@@ -56,6 +57,7 @@ def main():
     check(not newton["newton"] and newton["linear_error"] < newton["accuracy"] == 0.02, f"auto: {newton}")
     check("no more than the 2 % allowed, solved linearly" in finished.output, finished.output)
     free_expansion(folder)
+    tension(folder)
 
 
 # What expands freely is exact, though its energy is rounding.
@@ -72,6 +74,32 @@ def free_expansion(folder):
             report = json.load(stream)
         check(report["answer_error"]["relative"] == 0 and report["checks"]["displacement_error"] < 1e-9, f"{word}: {report}")
         check("exact but for rounding" in finished.output and "mesh is coarse" not in finished.output, finished.output)
+
+
+# Tension P stiffens a bar that bends under a force F at its end, u = F/P (L - tanh(k L)/k), k² = P/EI, and compression
+# softens it, F/P (tan(k L)/k - L), though it hardly turns.
+def tension(folder):
+    bar = CASE.replace("[4, 1, 1], divisions: [8, 2, 2]", "[20, 1, 1], divisions: [20, 1, 1]") + \
+        "watch: {end: {displacement: {nearest: [20, 0, 0]}, component: z}}\n"
+    length, rigidity, across, k = 20.0, 1e6 / 12.0, 25.0, 1.0 / 20.0
+    along = rigidity * k**2
+    for sign, arm in ((1, length - math.tanh(k * length) / k), (-1, math.tan(k * length) / k - length)):
+        for word in ("auto", "off"):
+            write(folder, "bar.yaml", bar.replace("FORCE", f"[{sign * along}, 0, {across}]").replace("WORD", word))
+            finished = run("solve", "bar.yaml", "--json", "bar.json", folder=folder)
+            with open(os.path.join(folder, "bar.json")) as stream:
+                report = json.load(stream)
+            end, stiffer = report["watched"]["end"]["value"], "stiffer" if sign > 0 else "softer"
+            check(report["checks"]["largest_rotation"] < 0.12 and f"% {stiffer} as it turns" in finished.output, finished.output)
+            if word == "auto":
+                check(report["large_rotation"]["newton"] and abs(end * along / across / arm - 1) < 0.02, f"{end}: {report}")
+                check(0.35 < sign * report["large_rotation"]["linear_stiffening"] < 0.41, f"0.4 by the theory of beams: {report}")
+            else:
+                check(abs(end / (across * length**3 / 3 / rigidity) - 1) < 0.02, f"by linear theory: {end}")
+                check(0.35 < sign * report["checks"]["stiffening"] < 0.41 and report["warnings"], f"{report}")
+    write(folder, "bar.yaml", bar.replace("FORCE", f"[{0.02 * along}, 0, {across}]").replace("WORD", "auto"))
+    finished = run("solve", "bar.yaml", folder=folder)
+    check("% allowed, solved linearly" in finished.output, finished.output)
 
 
 main()

@@ -119,13 +119,15 @@ check([one["accepted"] for one in read_json(folder, "beam.json")["cases"]] == [T
 # --- check, and what is refused ---
 folder = folder_with(CASE)
 sound = run("check", "beam.yaml", folder=folder)
-check(sound.exit_code == 0 and "4 load cases beside beam.vtkhdf" in sound.output, sound.output + sound.errors)
+check(sound.exit_code == 0 and "4 load cases to beam.vtkhdf, a step for each" in sound.output, sound.output + sound.errors)
 check("load cases           4" in run("explain", "beam.yaml", folder=folder).output, "explain says nothing of load cases")
 for arguments, words in ((("effects", "beam.yaml"), "there are 4 load cases, and this command takes one: name it, as in --case weight"),
                          (("cost", "beam.yaml"), "name it, as in --case weight"),
                          (("solve", "beam.yaml", "--case", "pull"), "did you mean 'push'?"),
                          (("check", "beam.yaml", "--set", "cases.push.constraints=[{on: {boundary: nowhere}, slide: [1, 0, 0]}]"),
-                          "nowhere"),
+                          "load case 'push': beam.yaml:"),
+                         (("check", "beam.yaml", "--set", "cases.far.constraints=[{on: {boundary: xmin}, displacement: [0, free, free]}]"),
+                          "load case 'far': beam.yaml: nothing constrains these motions"),
                          (("check", "beam.yaml", "--set", "cases.push.name=weight"), "the load case 'weight' is there already"),
                          (("check", "beam.yaml", "--set", "path.steps=3"), "leave out 'cases' or 'path'"),
                          (("solve", "beam.yaml", "--resume"), "--resume goes on with a path"),
@@ -188,3 +190,16 @@ whole = run("solve", "beam.yaml", "--case", "weight", "-v", folder=folder).outpu
 check("  stopped " in short and "residual" not in short, short)
 check(0 < short.find("  accuracy ") < short.find("  solver "), short)
 check("of the loads (true, recomputed)" in whole and "hardly move anything" in whole and "tet by tet" in whole, whole)
+
+# --- by how much the loads of each case may grow until the material fails, and which case is the first ---
+strong = CASE.replace("density: 1}", "density: 1, strengths: {tension: 0.5}}").replace("[1000, 80, 50]", "1000")
+folder = folder_with(strong + "large_rotation: off\n")
+finished = run("solve", "beam.yaml", "--json", "beam.json", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+with open(os.path.join(folder, "beam_cases.csv")) as stream:
+    rows = list(csv.DictReader(stream))
+for criterion in ("tsai_wu", "hill", "maximum_stress"):
+    of_cases = {one["load_case"]: one["strength"][criterion]["load_factor"] for one in read_json(folder, "beam.json")["cases"]}
+    check([float(row[criterion + "_load_factor"]) for row in rows] == list(of_cases.values()), f"{criterion}: {rows}")
+    check(min(of_cases, key=of_cases.get) == "far", f"{criterion}: {of_cases}")
+    check(f"to fail is far, at {of_cases['far']:.5g} times its load" in finished.output, finished.output)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/render draws a result with no display, and says what is wrong when it cannot."""
 import os
+import runpy
 import subprocess
 import sys
 import tempfile
@@ -10,7 +11,7 @@ import unittest
 import numpy
 from matplotlib.image import imread
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
 sys.path.insert(0, os.path.dirname(RENDER))
@@ -100,6 +101,31 @@ class Render(unittest.TestCase):
         ends = vtk_to_numpy(actor.GetMapper().GetInput().GetPoints().GetData())
         numpy.testing.assert_allclose(ends.mean(axis=0), [1, 1, 0.5], atol=1e-6)  # a little above its triangle
         numpy.testing.assert_allclose(ends[1] - ends[0], [0, 4.8, 0], atol=1e-6)  # of 0.8 × 10 what lies in its plane
+
+    def test_one_axis_is_enough_for_fibres(self):
+        render = runpy.run_path(RENDER)
+        data = vtkUnstructuredGrid().GetCellData()
+        self.assertIsNone(render["axes_of"](data))
+        one = numpy_to_vtk(numpy.array([[0.0, 0, 1], [0, 1, 0]]), deep=True)
+        one.SetName("e3")
+        data.AddArray(one)
+        numpy.testing.assert_array_equal(render["axes_of"](data)[:, 2], [[0, 0, 1], [0, 1, 0]])
+        self.assertTrue(numpy.isnan(render["axes_of"](data)[:, :2]).all())
+        self.assertIn("output: {fields: [e1]}, or [axes]", self.refusal(self.result, "--fibres", "e1"))
+
+    def test_a_list_stands_for_its_files(self):
+        listed = runpy.run_path(RENDER)["each_step"]
+        pvd, series = (os.path.join(self.folder.name, name) for name in ("all.pvd", "all.hdf.series"))
+        with open(pvd, "w") as stream:
+            stream.write('<VTKFile type="Collection"><Collection><DataSet timestep="1" file="a.vtu"/>'
+                         '<DataSet timestep="2" file="b.vtu"/></Collection></VTKFile>')
+        with open(series, "w") as stream:
+            stream.write('{"file-series-version": "1.0", "files": [{"name": "a.hdf", "time": 1}]}')
+        self.assertEqual(listed(pvd), [os.path.join(self.folder.name, name) for name in ("a.vtu", "b.vtu")])
+        self.assertEqual(listed(series), [os.path.join(self.folder.name, "a.hdf")])
+        with open(pvd, "w") as stream:
+            stream.write("no list")
+        self.assertIn("cannot be read as a list of results", self.refusal(pvd))
 
     def test_what_cannot_be_drawn_is_refused_in_words(self):
         self.assertIn("no such file", self.refusal("nothing.vtkhdf"))

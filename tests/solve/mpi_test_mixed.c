@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "iterations.h"
 #include "run.h"
 #include "two_layers.h"
 
@@ -212,7 +213,20 @@ static void the_stated_error_is_no_less_than_the_true_one(void **state)
         }
 }
 
+/* Of half the block all nodes are fixed, and pressures next to it are held by few that are free. */
+static void a_body_whose_inside_is_fixed_takes_few_iterations(void **state)
+{
+    static const char text[] =
+        "mesh: {block: {size: [1, 1, 1], divisions: [7, 7, 7]}}\n"
+        "materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.499, density: 1}]\n"
+        "constraints: [{on: {sphere: {center: [0, 0, 0], radius: 0.9}}, displacement: [0, 0, 0]}]\n"
+        "loads: [{gravity: [0, 0, 1e-3]}]\nlarge_rotation: off\naccuracy: {algebraic_fraction: 0}\n"
+        "solver: {factor_memory: 1e-6}\noutput: {fields: [displacement]}\n";
+    check_iterations("half of a block is fixed", text, 2, 45, NULL, NULL);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_body_whose_inside_is_fixed_takes_few_iterations),
     cmocka_unit_test(any_compressibility_and_stiffness_is_solved),
     cmocka_unit_test(an_incompressible_block_in_a_box_bears_the_load),
     cmocka_unit_test(a_body_held_all_around_may_not_change_its_volume),

@@ -5,6 +5,7 @@
 #include "formats/serial/formats.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* $ElementData and $NodeData, by Gmsh's manual: strings, the first of which is the name; numbers, the first the time;
@@ -18,6 +19,7 @@ typedef struct Field {
     OstFileField *out;
     OstLabelIndex rows; /* of tets, or of nodes */
     int step, later;    /* its step; are there further ones? */
+    char others[256];   /* names of fields that were not asked for, as far as there is room */
 } Field;
 
 enum { STEP, COMPONENTS, ELEMENTS, INTEGERS, MOST_COMPONENTS = 9 };
@@ -33,6 +35,15 @@ static OstStatus skip_lines(OstMshCursor *cursor, const char *what)
 }
 
 /* The strings; is it the field's name? */
+static void note_other(Field *field, OstMshText text)
+{
+    char quoted[80];
+    const size_t used = strlen(field->others);
+    snprintf(quoted, sizeof quoted, "'%.*s'", (int)text.length, text.start);
+    if (!strstr(field->others, quoted))
+        snprintf(field->others + used, sizeof field->others - used, "%s%s", used ? ", " : "", quoted);
+}
+
 static OstStatus read_name(Field *field, int *wanted)
 {
     OstMshCursor *cursor = &field->msh.cursor;
@@ -47,6 +58,8 @@ static OstStatus read_name(Field *field, int *wanted)
             text = (OstMshText){text.start + 1, text.length - 2};
         if (i == 0)
             *wanted = (size_t)text.length == length && memcmp(text.start, field->name, length) == 0;
+        if (i == 0 && !*wanted)
+            note_other(field, text);
     }
     return OST_SUCCESS;
 }
@@ -177,6 +190,10 @@ OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_msh_open(ctx, path, &field.msh.cursor));
     OST_TRY_DONE(read_sections(&field));
+    if (!out->found && field.others[0])
+        status = OST_RAISE(ctx, OST_INVALID_INPUT,
+                           "%s: there is no field '%s' on the elements, or on the nodes; there is %s", path, name,
+                           field.others);
     if (field.later)
         ost_warn(ctx, "%s: the field '%s' has several time steps; step %d, the first, is taken", path, name,
                  field.step);
