@@ -21,7 +21,7 @@ typedef struct OstLoadCaseReport {
     double relative_error; /* that the mesh makes; NAN if not known */
     int iterations, newton_iterations;
     double nonzeros;
-    OstFailure failing; /* the least load factors, if a material has strengths */
+    OstFailure failing;       /* the least load factors, if a material has strengths */
     OstWatchedValue *watched; /* c->watch_count */
     char *file;               /* its fields; NULL: not written */
     struct json_t *json;      /* as of a single run, on rank 0 */
