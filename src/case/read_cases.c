@@ -5,6 +5,7 @@
 #include "core/memory.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,13 +33,13 @@ static OstStatus read_name(const OstYaml *yaml, const OstYamlNode *node, OstCase
     return ost_copy_string(yaml->ctx, name, &load_case->name);
 }
 
-enum { NAME, LOADS, CONSTRAINTS, SPRINGS, WATCH, ENTRY_KEYS };
+enum { NAME, LOADS, COMBINE, CONSTRAINTS, SPRINGS, WATCH, ENTRY_KEYS };
 
 static OstStatus read_entry(const OstYaml *yaml, const OstYamlNode *node, OstYamlKey keys[ENTRY_KEYS])
 {
     static const OstYamlKey known[ENTRY_KEYS] = {
-        [NAME] = {.name = "name", .needed = 1}, [LOADS] = {.name = "loads"}, [CONSTRAINTS] = {.name = "constraints"},
-        [SPRINGS] = {.name = "springs"},        [WATCH] = {.name = "watch"},
+        [NAME] = {.name = "name", .needed = 1},  [LOADS] = {.name = "loads"},     [COMBINE] = {.name = "combine"},
+        [CONSTRAINTS] = {.name = "constraints"}, [SPRINGS] = {.name = "springs"}, [WATCH] = {.name = "watch"},
     };
     memcpy(keys, known, sizeof known);
     return ost_yaml_mapping(yaml, node, keys, ENTRY_KEYS);
@@ -81,6 +82,70 @@ static OstStatus add_conditions(const OstYaml *yaml, const OstYamlKey keys[ENTRY
     return OST_SUCCESS;
 }
 
+/* `node`: the factor. */
+static OstStatus multiply(const OstYaml *yaml, const OstYamlNode *node, double factor, OstLoad *load)
+{
+    if (load->exact)
+        return ost_yaml_raise(yaml, node, "the load in line %d is by a formula (exact), which has no factor",
+                              load->line);
+    if (load->kind == OST_LOAD_CENTRIFUGAL && factor < 0.0)
+        return ost_yaml_raise(yaml, node, "the centrifugal load in line %d cannot act inwards; its factor is 0 or more",
+                              load->line);
+    for (int i = 0; i < 3; i++)
+        load->vector[i] *= factor;
+    for (int i = 0; i < 6; i++)
+        load->motion[i] *= factor;
+    load->pressure *= factor;
+    load->speed *= sqrt(fmax(factor, 0.0)); /* whose square the load grows with */
+    return OST_SUCCESS;
+}
+
+/* Adds the loads of another load case, times a factor. */
+static OstStatus add_combined(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *name,
+                              const OstYamlNode *value, OstCase *c)
+{
+    const OstYamlNode *item = ost_yaml_first(yaml, cases);
+    const char *wanted, *found = NULL;
+    OstYamlKey keys[ENTRY_KEYS];
+    double factor;
+    int count;
+    OST_TRY(ost_yaml_text(yaml, name, &wanted));
+    OST_TRY(ost_yaml_number(yaml, value, &factor));
+    OST_TRY(ost_yaml_list(yaml, cases, "", &count));
+    for (int k = 0; k < count && !(found && strcmp(found, wanted) == 0); k++, item = ost_yaml_next(yaml, item)) {
+        OST_TRY(read_entry(yaml, item, keys));
+        OST_TRY(ost_yaml_text(yaml, keys[NAME].value, &found));
+    }
+    if (!found || strcmp(found, wanted) != 0)
+        return ost_yaml_raise(yaml, name, "there is no load case '%.80s' to combine", wanted);
+    if (keys[COMBINE].value || keys[CONSTRAINTS].value || keys[SPRINGS].value)
+        return ost_yaml_raise(yaml, name,
+                              "'combine' adds loads alone, and '%.80s' has %s of its own; state its loads here", wanted,
+                              keys[COMBINE].value ? "a combination" : "supports");
+    const int before = c->load_count;
+    if (keys[LOADS].value)
+        OST_TRY(ost_read_loads(yaml, keys[LOADS].value, c));
+    for (int i = before; i < c->load_count; i++)
+        OST_TRY(multiply(yaml, value, factor, &c->loads[i]));
+    return OST_SUCCESS;
+}
+
+static OstStatus combine(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *node, OstCase *c)
+{
+    if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
+        return ost_yaml_raise_type(yaml, node, "factors of other load cases, as in {weight: 1.35, wind: 1.5}", "");
+    const int before = c->load_count, count = (int)ost_yaml_follow(yaml, node)->value;
+    const OstYamlNode *key = ost_yaml_first(yaml, node);
+    for (int k = 0; k < count; k++) {
+        const OstYamlNode *value = ost_yaml_next(yaml, key);
+        OST_TRY(add_combined(yaml, cases, key, value, c));
+        key = ost_yaml_next(yaml, value);
+    }
+    for (int i = before; i < c->load_count; i++)
+        c->loads[i].chosen = 1;
+    return OST_SUCCESS;
+}
+
 /* The title of a load case: that of the case, and its name. */
 static OstStatus name_title(const char *name, OstCase *c)
 {
@@ -119,6 +184,8 @@ OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int 
             OST_TRY(name_title(name, c));
             if (keys[WATCH].value)
                 OST_TRY(ost_read_watches(yaml, keys[WATCH].value, c));
+            if (keys[COMBINE].value)
+                OST_TRY(combine(yaml, node, keys[COMBINE].value, c));
         }
         OST_TRY(add_conditions(yaml, keys, c));
     }

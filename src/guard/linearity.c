@@ -64,18 +64,16 @@ static inline void find_axis(const OstSimd matrix[9], int slot, double axis[3])
     }
 }
 
-/* Of stress on H'H - e², twice what the strain U - I has to second order. */
-static inline OstSimd stress_work(const OstSimd h[9], const OstSimd stress[6])
+/* Adds a weight times the work of stress on H'H - e², twice what the strain U - I has to second order. */
+static inline void add_stress_work(const OstSimd *weight, const OstSimd h[9], const OstSimd stress[6], OstSimd *work)
 {
-    OstSimd work = {0};
     for (int p = 0; p < 6; p++) {
         const int i = p % 3, j = p < 3 ? i : (i + 1) % 3; /* 11 22 33 12 23 31 */
         OstSimd both = {0};
         for (int k = 0; k < 3; k++)
             both += h[3 * k + i] * h[3 * k + j] - 0.25 * (h[3 * k + i] + h[3 * i + k]) * (h[3 * k + j] + h[3 * j + k]);
-        work += (p < 3 ? 1.0 : 2.0) * stress[p] * both;
+        *work += *weight * (p < 3 ? 1.0 : 2.0) * stress[p] * both;
     }
-    return work;
 }
 
 /* Its integral over quadratic tets: the stress of a bent bar changes sign within a tet. */
@@ -99,7 +97,7 @@ OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *e
         ost_simd_stress(elasticity->c[at], elastic, stress);
         for (int p = 0; p < 6 && elasticity->by_mean; p++)
             stress[p] += means->stiff * elasticity->m[at][p];
-        *work += point.volume * stress_work(gradient, stress);
+        add_stress_work(&point.volume, gradient, stress, work);
     }
 }
 
@@ -111,7 +109,8 @@ OST_KERNEL static void find_angles(const OstBatch *batch, int nodes, OstFormulat
     OstPolar polar;
     double axis[3];
     find_gradient(batch, nodes, u, gradient);
-    *work = means->volume * stress_work(gradient, means->stress);
+    *work = (OstSimd){0};
+    add_stress_work(&means->volume, gradient, means->stress, work);
     if (formulation != OST_FORMULATION_LINEAR) {
         ost_polar(gradient, &polar);
         ost_polar_rotation(&polar, rotation);

@@ -203,3 +203,26 @@ for criterion in ("tsai_wu", "hill", "maximum_stress"):
     check([float(row[criterion + "_load_factor"]) for row in rows] == list(of_cases.values()), f"{criterion}: {rows}")
     check(min(of_cases, key=of_cases.get) == "far", f"{criterion}: {of_cases}")
     check(f"to fail is far, at {of_cases['far']:.5g} times its load" in finished.output, finished.output)
+
+# --- combinations of the loads of others: by linear theory, of their answers ---
+BOTH = """  - name: press
+    loads: [{on: {boundary: zmax}, pressure: 0.02}, {centrifugal: {axis: [0, 0, 1], angular_velocity: 0.05}}]
+  - name: both
+    combine: {weight: 1.5, press: 0.25, push: -0.5}
+    loads: [{on: {boundary: xmax}, total_force: [0, 0, 0.001]}]
+output:"""
+folder = folder_with(CASE.replace("output:", BOTH) + "large_rotation: off\n")
+finished = run("solve", "beam.yaml", "--json", "beam.json", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+end = {one["load_case"]: one["watched"]["end"]["value"] for one in read_json(folder, "beam.json")["cases"]}
+sum_of = 1.5 * end["weight"] + 0.25 * end["press"] - 0.5 * end["push"] + 0.001 / 5 * end["far"]
+check(close(end["both"], sum_of, 1e-8) and abs(end["both"]) > 0.1 * abs(end["weight"]), end)
+for entry, words in (("combine: {rain: 1}", "there is no load case 'rain' to combine"),
+                     ("combine: {propped: 1}", "'combine' adds loads alone, and 'propped' has supports of its own"),
+                     ("combine: {both: 1}", "'both' has a combination of its own"),
+                     ("combine: {press: -1}", "cannot act inwards; its factor is 0 or more"),
+                     ("combine: [weight]", "expected factors of other load cases, as in {weight: 1.35, wind: 1.5}")):
+    write(folder, "wrong.yaml", CASE.replace("output:", BOTH.replace("output:", f"  - name: more\n    {entry}\noutput:")))
+    refused = run("check", "wrong.yaml", folder=folder)
+    check(refused.exit_code == 2 and words in refused.errors and "wrong.yaml:" in refused.errors,
+          f"{entry}: {refused.errors}")
