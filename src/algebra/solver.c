@@ -554,7 +554,7 @@ OstStatus ost_solver_precondition(OstSolver *solver, int brief, const double *r,
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
     ost_solver_system(solver, &system, &preconditioner);
     if (preconditioner.half)
-        preconditioner.apply = brief ? preconditioner.brief : preconditioner.half;
+        preconditioner.apply = brief && preconditioner.brief ? preconditioner.brief : preconditioner.half;
     const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
     OST_FREE(scaled);
     return status;

@@ -101,49 +101,46 @@ static OstStatus multiply(const OstYaml *yaml, const OstYamlNode *node, double f
 }
 
 /* Adds the loads of another load case, times a factor. */
-static OstStatus add_combined(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *name,
-                              const OstYamlNode *value, OstCase *c)
+static OstStatus add_combined(const OstYaml *yaml, const OstYamlKey *other, const OstYamlNode *item, OstCase *c)
 {
-    const OstYamlNode *item = ost_yaml_first(yaml, cases);
-    const char *wanted, *found = NULL;
-    OstYamlKey keys[ENTRY_KEYS];
-    double factor;
-    int count;
-    OST_TRY(ost_yaml_text(yaml, name, &wanted));
-    OST_TRY(ost_yaml_number(yaml, value, &factor));
-    OST_TRY(ost_yaml_list(yaml, cases, "", &count));
-    for (int k = 0; k < count && !(found && strcmp(found, wanted) == 0); k++, item = ost_yaml_next(yaml, item)) {
-        OST_TRY(read_entry(yaml, item, keys));
-        OST_TRY(ost_yaml_text(yaml, keys[NAME].value, &found));
-    }
-    if (!found || strcmp(found, wanted) != 0)
-        return ost_yaml_raise(yaml, name, "there is no load case '%.80s' to combine", wanted);
-    if (keys[COMBINE].value || keys[CONSTRAINTS].value || keys[SPRINGS].value)
-        return ost_yaml_raise(yaml, name,
-                              "'combine' adds loads alone, and '%.80s' has %s of its own; state its loads here", wanted,
-                              keys[COMBINE].value ? "a combination" : "supports");
     const int before = c->load_count;
+    OstYamlKey keys[ENTRY_KEYS];
+    OST_TRY(read_entry(yaml, item, keys));
+    if (keys[COMBINE].value || keys[CONSTRAINTS].value || keys[SPRINGS].value)
+        return ost_yaml_raise(yaml, other->value,
+                              "'combine' adds loads alone, and '%.80s' has %s of its own; state its loads here",
+                              other->name, keys[COMBINE].value ? "a combination" : "supports");
     if (keys[LOADS].value)
         OST_TRY(ost_read_loads(yaml, keys[LOADS].value, c));
-    for (int i = before; i < c->load_count; i++)
-        OST_TRY(multiply(yaml, value, factor, &c->loads[i]));
+    for (int i = before; i < c->load_count; i++) {
+        c->loads[i].chosen = 1;
+        OST_TRY(multiply(yaml, other->value, *other->into, &c->loads[i]));
+    }
     return OST_SUCCESS;
 }
 
-static OstStatus combine(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *node, OstCase *c)
+/* `node` maps names of load cases to factors. */
+static OstStatus combine(const OstYaml *yaml, const OstYamlNode *cases, int count, const OstYamlNode *node, OstCase *c)
 {
-    if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
-        return ost_yaml_raise_type(yaml, node, "factors of other load cases, as in {weight: 1.35, wind: 1.5}", "");
-    const int before = c->load_count, count = (int)ost_yaml_follow(yaml, node)->value;
-    const OstYamlNode *key = ost_yaml_first(yaml, node);
-    for (int k = 0; k < count; k++) {
-        const OstYamlNode *value = ost_yaml_next(yaml, key);
-        OST_TRY(add_combined(yaml, cases, key, value, c));
-        key = ost_yaml_next(yaml, value);
+    OstYamlKey *others = NULL, keys[ENTRY_KEYS];
+    double *factor = NULL;
+    const OstYamlNode *item = ost_yaml_first(yaml, cases);
+    OstStatus status = OST_NEW(yaml->ctx, &others, count);
+    OST_THEN(OST_NEW(yaml->ctx, &factor, count));
+    for (int k = 0; k < count && status == OST_SUCCESS; k++, item = ost_yaml_next(yaml, item)) {
+        status = read_entry(yaml, item, keys);
+        OST_THEN(ost_yaml_text(yaml, keys[NAME].value, &others[k].name));
+        others[k].read = ost_yaml_number;
+        others[k].into = &factor[k];
     }
-    for (int i = before; i < c->load_count; i++)
-        c->loads[i].chosen = 1;
-    return OST_SUCCESS;
+    OST_THEN(ost_yaml_mapping(yaml, node, others, count));
+    item = ost_yaml_first(yaml, cases);
+    for (int k = 0; k < count && status == OST_SUCCESS; k++, item = ost_yaml_next(yaml, item))
+        if (others[k].value)
+            status = add_combined(yaml, &others[k], item, c);
+    OST_FREE(others);
+    OST_FREE(factor);
+    return status;
 }
 
 /* The title of a load case: that of the case, and its name. */
@@ -185,7 +182,7 @@ OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int 
             if (keys[WATCH].value)
                 OST_TRY(ost_read_watches(yaml, keys[WATCH].value, c));
             if (keys[COMBINE].value)
-                OST_TRY(combine(yaml, node, keys[COMBINE].value, c));
+                OST_TRY(combine(yaml, node, count, keys[COMBINE].value, c));
         }
         OST_TRY(add_conditions(yaml, keys, c));
     }

@@ -182,7 +182,7 @@ static void print_cut_off(const OstMeshReport *counts)
 {
     static const double least = 5e-4;
     if (fabs(counts->cut_off) > least)
-        printf("  %.2g %% %s if the surface were curved where its faces meet at less than 40 degrees\n",
+        printf("  volume %.2g %% %s if the surface were curved where its faces meet at less than 40 degrees\n",
                100.0 * fabs(counts->cut_off), counts->cut_off > 0.0 ? "larger" : "smaller");
 }
 

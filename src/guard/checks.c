@@ -512,8 +512,8 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     }
     checks->largest_strain = tets.largest.strain;
     checks->largest_rotation = tets.largest.rotation;
-    checks->stiffening = 0.0;
-    if (tets.is_judged)
+    checks->stiffening = NAN; /* not looked at */
+    if (result->newton.judged && !body.turns)
         checks->stiffening = result->newton.linear_stiffening;
     else if (!body.turns && !ost_field_is_eigenstrained(problem->field))
         checks->stiffening = ost_linearity_stiffening(&tets.largest);

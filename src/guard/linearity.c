@@ -97,6 +97,12 @@ OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *e
         ost_simd_stress(elasticity->c[at], elastic, stress);
         for (int p = 0; p < 6 && elasticity->by_mean; p++)
             stress[p] += means->stiff * elasticity->m[at][p];
+        if (elasticity->mixed) {
+            OstSimd pressure;
+            ost_pressure_at(elasticity, rule->point[q].at, &pressure);
+            for (int p = 0; p < 6; p++)
+                stress[p] += pressure * elasticity->m[at][p];
+        }
         add_stress_work(&point.volume, gradient, stress, work);
     }
 }
@@ -139,21 +145,23 @@ static double principal(const double e[6])
     return fmax(fabs(mean + 2.0 * size * cos(angle)), fabs(mean + 2.0 * size * cos(angle + third)));
 }
 
-/* A part that strains by less beside its rotation is rigid, and its stress rounding. */
-static const double least_strain = 1e-10;
+/* A part that strains by less beside its rotation is rigid, and its stress rounding. Beside a pressure of
+ * incompressible material whose work is more than the energy by this factor, the strain is. */
+static const double least_strain = 1e-10, most_work = 1e8;
 
 static void add_tet(const OstMeans *means, double angle, double work, int slot, OstLinearity *largest)
 {
-    double e[6], square = 0.0;
+    double e[6], square = 0.0, stress = 0.0;
     for (int p = 0; p < 6; p++) {
         e[p] = means->strain[p][slot];
         square += (p < 3 ? 1.0 : 0.5) * e[p] * e[p];
+        stress += (p < 3 ? 1.0 : 2.0) * means->stress[p][slot] * means->stress[p][slot];
     }
     largest->rotation = fmax(largest->rotation, angle);
     if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
         largest->strain = fmax(largest->strain, principal(e));
     largest->energy += means->energy[slot] * means->volume[slot];
-    if (sqrt(square) > least_strain * angle)
+    if (sqrt(square) > least_strain * angle && sqrt(stress * square) < most_work * means->energy[slot])
         largest->stiffening += 0.5 * work;
 }
 

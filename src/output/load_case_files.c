@@ -208,15 +208,18 @@ static void print_first_to_fail(const Table *table)
 {
     static const char *const word[OST_CRITERIA] = {
         [OST_TSAI_WU] = "Tsai-Wu", [OST_HILL] = "Hill", [OST_MAXIMUM_STRESS] = "maximum stress"};
+    const char *label = "strength";
     for (int c = 0; table->failing && c < OST_CRITERIA; c++) {
         const OstLoadCaseReport *first = NULL;
         for (int k = 0; k < table->count; k++)
-            if (isfinite(factor_of(&table->reports[k], c)) &&
+            if (table->reports[k].status == OST_SUCCESS && isfinite(factor_of(&table->reports[k], c)) &&
                 (!first || factor_of(&table->reports[k], c) < factor_of(first, c)))
                 first = &table->reports[k];
-        if (first)
-            printf("  %-16s %s: the first case to fail is %s, at %.5g times its load\n", c == 0 ? "strength" : "",
-                   word[c], first->name, factor_of(first, c));
+        if (!first)
+            continue;
+        printf("  %-16s %s: the first case to fail is %s, at %.5g times its load\n", label, word[c], first->name,
+               factor_of(first, c));
+        label = "";
     }
 }
 

@@ -159,7 +159,7 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
         snprintf(
             text, OST_LONGEST_WARNING,
             "stress makes the body %s as it turns, by up to %.3g degrees: linear theory, which leaves that out, is "
-            "off %s; take large_rotation: on, or scale the loads down",
+            "off %s; take large_rotation: on (not of a free body), or scale the loads down",
             stiffened, checks->largest_rotation * degrees, off);
     else
         snprintf(
@@ -245,7 +245,7 @@ static int warn_of_cut_off(const OstResult *result, char text[OST_LONGEST_WARNIN
         return 0;
     snprintf(
         text, OST_LONGEST_WARNING,
-        "faces of the surface meet at small angles: if it is meant to be curved there, the body is about %s too %s, "
+        "faces of the surface meet at small angles: if it is meant to be curved there, its volume is about %s too %s, "
         "beside the error of the answer; take a finer mesh, or quadratic tets whose mid-edge nodes lie on the "
         "surface (of a built-in shape: element: {order: 2})",
         percent(fabs(cut), share), cut > 0.0 ? "small" : "large");

@@ -225,7 +225,7 @@ static void wrong_load_cases_are_refused(void **state)
     refuse_cases("cases: [{name: a b}]\n", "3:16: the name 'a b' is part of a file's name: letters...");
     refuse_cases("cases: [{name: a}, {name: A}]\n", "3:27: the load case 'A' is there already, in line 3;...");
     refuse_cases("cases: [{name: a, mesh: 3}]\n",
-                 "3:19: unknown key 'mesh' in cases[0]. Known keys: name, loads, constraints, springs, watch");
+                 "3:19: unknown key 'mesh' in cases[0]. Known keys: name, loads, combine, constraints, springs, watch");
     refuse_cases("cases: [{name: a}]\npath: {steps: 2}\n",
                  "3:8: load cases stand beside each other, and the steps of a path follow one another;...");
     refuse_cases("cases: [{name: a, loads: [{gravity: [0, 0, 1]}]}]\n", "3: gravity acts on mass...");

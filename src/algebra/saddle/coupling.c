@@ -80,7 +80,7 @@ OstStatus ost_coupling_give_way(const OstCoupling *coupling, double *p, double *
 }
 
 /* Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1, for D^-1 M. */
-OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *held, const double *r, double *z,
+OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *weights, const double *r, double *z,
                                    double *work)
 {
     const size_t n = (size_t)coupling->rows;
@@ -88,7 +88,7 @@ OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *he
     double *left = work, *step = left + n, *product = step + n;
     double rho = half / middle;
     for (size_t i = 0; i < n; i++) {
-        left[i] = held ? held[i] * r[i] : r[i];
+        left[i] = weights ? weights[i] * r[i] : r[i];
         z[i] = step[i] = left[i] / (middle * coupling->diagonal[i]);
     }
     for (int k = 1; k < STEPS; k++) {
@@ -101,6 +101,6 @@ OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *he
         rho = next;
     }
     for (size_t i = 0; i < n; i++)
-        z[i] *= (held ? held[i] : 1.0) / coupling->schur[i];
+        z[i] *= (weights ? weights[i] : 1.0) / coupling->schur[i];
     return OST_SUCCESS;
 }

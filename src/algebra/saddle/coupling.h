@@ -40,10 +40,10 @@ OstStatus ost_coupling_transpose(const OstCoupling *coupling, double *p, double 
 OstStatus ost_coupling_mass(const OstCoupling *coupling, double *p, double *y);
 OstStatus ost_coupling_give_way(const OstCoupling *coupling, double *p, double *y);
 
-/* Collective over neighbours. z = S^-1 r about, S = schur × H M H, H with 1 / held on its diagonal (NULL: 1): a few
+/* Collective over neighbours. z = S^-1 r about, S = schur × H M H, H with 1 / weights on its diagonal (NULL: 1): a few
  * Chebyshev steps from the diagonal, a fixed, symmetric and positive definite operator. z has room for `columns`
  * numbers; `work` for 3 × rows. */
-OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *held, const double *r, double *z,
+OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *weights, const double *r, double *z,
                                    double *work);
 
 #endif

@@ -17,7 +17,7 @@ static const double residual_beside = 1e-2;
 typedef struct Work {
     OstSoftMeans *means;
     OstLocalSchur *local;
-    double *memory, *scaled, *wide, *force, *q, *schur, *held;
+    double *memory, *scaled, *wide, *force, *q, *schur, *weights;
 } Work;
 
 static OstStatus create(const OstCgSystem *system, const OstPreconditioner *preconditioner, const OstCoupling *coupling,
@@ -31,7 +31,7 @@ static OstStatus create(const OstCgSystem *system, const OstPreconditioner *prec
     work->wide = work->force + n;
     work->q = work->wide + columns;
     work->schur = work->q + m;
-    OST_TRY(ost_agree(coupling->ctx, ost_pressures_held(system, coupling, &work->held)));
+    OST_TRY(ost_agree(coupling->ctx, ost_pressure_weights(system, coupling, &work->weights)));
     OST_TRY(ost_local_schur_create(system, coupling, &work->local));
     return ost_soft_means_create(system, preconditioner, coupling, &work->means);
 }
@@ -48,7 +48,7 @@ static OstStatus apply(const OstCgSystem *system, const OstPreconditioner *preco
     ost_coupling_multiply(coupling, work->wide, work->q);
     for (size_t i = 0; i < m; i++)
         work->q[i] -= saddle->g[i];
-    OST_TRY(ost_coupling_schur_solve(coupling, work->held, work->q, saddle->p, work->schur));
+    OST_TRY(ost_coupling_schur_solve(coupling, work->weights, work->q, saddle->p, work->schur));
     if (work->means)
         OST_TRY(ost_soft_means_add(work->means, work->q, saddle->p));
     if (work->local)
@@ -102,7 +102,7 @@ OstStatus ost_saddle_error(const OstCgSystem *system, const OstPreconditioner *p
     OST_THEN(apply(system, preconditioner, saddle, scale, r_u, &work, e_u));
     ost_soft_means_destroy(&work.means);
     ost_local_schur_destroy(&work.local);
-    OST_FREE(work.held);
+    OST_FREE(work.weights);
     OST_FREE(work.memory);
     return status;
 }

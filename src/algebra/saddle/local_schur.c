@@ -18,7 +18,7 @@ static const double apart = 0.1, one_of = 200.0;
 
 /* T's diagonal is 0.3 to 2 of that of S at pressures that nothing unusual holds. With 1 in place of the first a third
  * of the bodies take more iterations. */
-static const double usual = 0.3, most_held = 1e4;
+static const double usual = 0.3, most_weight = 1e4; /* the root of what double precision has beside 1 */
 
 /* The steps' interval is from the largest eigenvalue, with some safety, down to this share of it. With a tenth of T^-1
  * the eigenvalues of soft inclusions (E2 x 1e6, axes that vary) are in 0.10 to 1.0, and without in 0.003 to 0.76; of a
@@ -72,16 +72,15 @@ static double diagonal_at(const OstCgSystem *system, const OstCoupling *coupling
     return sum;
 }
 
-OstStatus ost_pressures_held(const OstCgSystem *system, const OstCoupling *coupling, double **held)
+OstStatus ost_pressure_weights(const OstCgSystem *system, const OstCoupling *coupling, double **weights)
 {
-    *held = NULL;
+    *weights = NULL;
     if (!system->scaling)
         return OST_SUCCESS;
-    OST_TRY(OST_NEW(coupling->ctx, held, coupling->rows));
+    OST_TRY(OST_NEW(coupling->ctx, weights, coupling->rows));
     for (OstLocal i = 0; i < coupling->rows; i++) {
-        const double sum = diagonal_at(system, coupling, i),
-                     usual_sum = usual * coupling->schur[i] * coupling->diagonal[i];
-        (*held)[i] = sum > 0.0 && sum < usual_sum ? fmin(sqrt(usual_sum / sum), most_held) : 1.0;
+        const double sum = diagonal_at(system, coupling, i), least = usual * coupling->schur[i] * coupling->diagonal[i];
+        (*weights)[i] = sum > 0.0 && sum < least ? fmin(sqrt(least / sum), most_weight) : 1.0;
     }
     return OST_SUCCESS;
 }

@@ -12,9 +12,9 @@
 typedef struct OstLocalSchur OstLocalSchur;
 
 /* Local. For ost_coupling_schur_solve: where most nodes around a pressure are fixed, or far stiffer, S is below the
- * mass matrix by about as much as the diagonal of T is. *held has a number of 1 or more for each owned pressure; NULL
- * where the system has no scaling. */
-OstStatus ost_pressures_held(const OstCgSystem *system, const OstCoupling *coupling, double **held);
+ * mass matrix by about as much as the diagonal of T is. *weights has a number of 1 or more for each owned pressure;
+ * NULL where the system has no scaling. */
+OstStatus ost_pressure_weights(const OstCgSystem *system, const OstCoupling *coupling, double **weights);
 
 /* Collective. *local is NULL where the diagonals of T and S are not apart, or the system has no scaling. */
 OstStatus ost_local_schur_create(const OstCgSystem *system, const OstCoupling *coupling, OstLocalSchur **local);

@@ -53,14 +53,14 @@ void ost_saddle_run_destroy(OstSaddleRun *run)
 {
     ost_soft_means_destroy(&run->means);
     ost_local_schur_destroy(&run->local);
-    OST_FREE(run->held);
+    OST_FREE(run->weights);
     OST_FREE(run->memory);
     ost_lanczos_destroy(&run->lanczos);
 }
 
 OstStatus ost_saddle_mass_solve(const OstSaddleRun *run, const double *r, double *z)
 {
-    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->held, r, z, run->work));
+    OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->weights, r, z, run->work));
     return run->means ? ost_soft_means_add(run->means, r, z) : OST_SUCCESS;
 }
 

@@ -29,7 +29,7 @@ typedef struct OstSaddleRun {
     double *wide, *scaled;     /* z with ghosts; work of the preconditioner */
     double *q;                 /* pressures: work, with ghosts */
     double *work;              /* of ost_coupling_schur_solve */
-    double *held;              /* likewise (ost_pressures_held), or NULL */
+    double *weights;           /* likewise (ost_pressure_weights), or NULL */
     OstSoftMeans *means;       /* beside it, or NULL */
     OstLocalSchur *local;      /* likewise */
     double tau;

@@ -462,7 +462,7 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
         return OST_SUCCESS;
     OstStatus status;
     OST_TRY_DONE(ost_saddle_run_create(&run));
-    OST_TRY_DONE(ost_agree(run.ctx, ost_pressures_held(system, saddle->coupling, &run.held)));
+    OST_TRY_DONE(ost_agree(run.ctx, ost_pressure_weights(system, saddle->coupling, &run.weights)));
     OST_TRY_DONE(ost_soft_means_create(system, preconditioner, saddle->coupling, &run.means));
     OST_TRY_DONE(ost_local_schur_create(system, saddle->coupling, &run.local));
     OST_TRY_DONE(run_passes(&run));

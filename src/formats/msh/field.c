@@ -34,16 +34,17 @@ static OstStatus skip_lines(OstMshCursor *cursor, const char *what)
     return OST_SUCCESS;
 }
 
-/* The strings; is it the field's name? */
+/* Keeps the name of a field that was not asked for, as far as there is room. */
 static void note_other(Field *field, OstMshText text)
 {
     char quoted[80];
     const size_t used = strlen(field->others);
     snprintf(quoted, sizeof quoted, "'%.*s'", (int)text.length, text.start);
-    if (!strstr(field->others, quoted))
+    if (!strstr(field->others, quoted) && used + strlen(quoted) + 3 < sizeof field->others)
         snprintf(field->others + used, sizeof field->others - used, "%s%s", used ? ", " : "", quoted);
 }
 
+/* The strings; is it the field's name? */
 static OstStatus read_name(Field *field, int *wanted)
 {
     OstMshCursor *cursor = &field->msh.cursor;
