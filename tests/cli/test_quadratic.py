@@ -69,16 +69,16 @@ solver: {method: METHOD}
 """
 
 
-def stiff_axes_that_cross_the_mesh_are_aggregated_or_factored():
-    """Over linear tets this body takes 79 iterations."""
+def vertices_turn_where_stiff_axes_cross_the_mesh():
+    """Over linear tets this body takes 79 iterations. Factors give the same answer, and are no quicker."""
     found = []
-    for method, ranks in (("metric", 1), ("metric", 4), ("auto", 1)):
+    for method, ranks in (("metric", 1), ("metric", 4), ("auto", 1), ("direct", 1)):
         finished, report, path = solve(TURNED.replace("METHOD", method), ranks=ranks)
         check(finished.exit_code == 0, f"turned, {method}, {ranks} ranks: {finished.errors}")
         solver = report["solver"]
         if method == "auto":
-            check(solver["method"] == "direct" and "factoring takes about" in solver["plan"][0], f"{solver['plan']}")
-        else:
+            check(solver["method"] == "metric", f"{solver['plan']}")
+        if method != "direct":
             print(f"turned axes, {ranks} ranks: {solver['iterations']} iterations")
             check(solver["iterations"] <= 45, f"turned, {ranks} ranks: {solver['iterations']} iterations")
             check(solver["level_unknowns"][1] != 3 * 8 * 9 * 5, "the linear tets should not be the next level")
@@ -87,7 +87,7 @@ def stiff_axes_that_cross_the_mesh_are_aggregated_or_factored():
 
 
 def main():
-    stiff_axes_that_cross_the_mesh_are_aggregated_or_factored()
+    vertices_turn_where_stiff_axes_cross_the_mesh()
     foreseen_sizes_are_the_real_ones()
     linear, _ = run(1, "metric", 1)
     reference = None
