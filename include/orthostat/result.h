@@ -29,7 +29,7 @@ typedef struct OstChecks {
     double largest_strain;   /* of a tet's mean, by size: the largest principal strain */
     double largest_rotation; /* of a tet's mean, in radians, as linear theory has it: half the curl of u */
     double stiffening; /* if linear: how much stiffer stress makes the body as it turns, relative to its stiffness; less
-                          than 0: softer. 0 where an eigenstrain acts and OstNewtonReport was not asked for it */
+                          than 0: softer. NAN: not looked at */
     double volume_ratio; /* where rotations are large, deformed over undeformed volume, the mean of det F; else 0 */
 } OstChecks;
 

@@ -222,7 +222,7 @@ for entry, words in (("combine: {pres: 1}", "unknown key 'pres' in cases[6].comb
                      ("combine: {propped: 1}", "'combine' adds loads alone, and 'propped' has supports of its own"),
                      ("combine: {both: 1}", "'both' has a combination of its own"),
                      ("combine: {press: -1}", "cannot act inwards; its factor is 0 or more"),
-                     ("combine: [weight]", "combine")):
+                     ("combine: [weight]", "cases[6].combine: found a list of 1, expected a mapping")):
     write(folder, "wrong.yaml", CASE.replace("output:", BOTH.replace("output:", f"  - name: more\n    {entry}\noutput:")))
     refused = run("check", "wrong.yaml", folder=folder)
     check(refused.exit_code == 2 and words in refused.errors and "wrong.yaml:" in refused.errors,

@@ -16,9 +16,10 @@
  * to 1e-9 where some are. */
 static const double apart = 0.1, one_of = 200.0;
 
-/* T's diagonal is 0.3 to 2 of that of S at pressures of most bodies. With 0.3 in place of the first an incompressible
- * beam may take 450 iterations for 100. */
-static const double usual = 0.1, most_weight = 1e4; /* the root of what double precision has beside 1 */
+/* T's diagonal is 0.3 to 2 of that of S at most pressures; below the first, weights make S smaller. With 0.3 in place
+ * of it an incompressible beam may take 450 iterations for 100. A weight counts twice: the largest is 1e8, half of what
+ * double precision holds beside 1. */
+static const double low = 0.1, most_weight = 1e4;
 
 /* The steps' interval is from the largest eigenvalue, with some safety, down to this share of it. With a tenth of T^-1
  * the eigenvalues of soft inclusions (E2 x 1e6, axes that vary) are in 0.10 to 1.0, and without in 0.003 to 0.76; of a
@@ -79,7 +80,7 @@ OstStatus ost_pressure_weights(const OstCgSystem *system, const OstCoupling *cou
         return OST_SUCCESS;
     OST_TRY(OST_NEW(coupling->ctx, weights, coupling->rows));
     for (OstLocal i = 0; i < coupling->rows; i++) {
-        const double sum = diagonal_at(system, coupling, i), least = usual * coupling->schur[i] * coupling->diagonal[i];
+        const double sum = diagonal_at(system, coupling, i), least = low * coupling->schur[i] * coupling->diagonal[i];
         (*weights)[i] = sum > 0.0 && sum < least ? fmin(sqrt(least / sum), most_weight) : 1.0;
     }
     return OST_SUCCESS;
