@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "mesh/mesh_data.h"
 
 #include <math.h>
@@ -19,18 +20,8 @@ typedef struct Side {
     double width;       /* how far the face reaches from it */
 } Side;
 
-static void cross(const double *a, const double *b, double *c)
-{
-    for (int i = 0; i < 3; i++)
-        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* What follows a side of the face inwards, in its middle: of a quadratic face the derivative of its shape functions. */
+/* From the middle of a side into the face, to its third vertex: of a quadratic face by the derivative of its shape
+ * functions. */
 static void find_inwards(const OstMesh *mesh, const OstLocal *face, int nodes, int side, double *inwards)
 {
     const double *x[6];
@@ -50,8 +41,8 @@ static void find_side(const OstMesh *mesh, const OstLocal *face, int nodes, int 
         side->along[i] =
             mesh->coordinates[3 * (size_t)to + (size_t)i] - mesh->coordinates[3 * (size_t)from + (size_t)i];
     find_inwards(mesh, face, nodes, number, inwards);
-    cross(side->along, inwards, side->normal);
-    const double area = sqrt(dot(side->normal, side->normal)), length = sqrt(dot(side->along, side->along));
+    ost_cross3(side->along, inwards, side->normal);
+    const double area = ost_norm3(side->normal), length = ost_norm3(side->along);
     for (int i = 0; i < 3; i++)
         side->normal[i] /= area;
     side->width = area / length;
@@ -83,9 +74,9 @@ static int compare_sides(const void *a, const void *b)
 static double volume_at(const Side *a, const Side *b)
 {
     double turn[3];
-    cross(a->normal, b->normal, turn);
-    const double length = sqrt(dot(a->along, a->along));
-    const double angle = atan2(dot(turn, a->along) / length, dot(a->normal, b->normal));
+    ost_cross3(a->normal, b->normal, turn);
+    const double length = ost_norm3(a->along);
+    const double angle = atan2(ost_dot3(turn, a->along) / length, ost_dot3(a->normal, b->normal));
     if (!(fabs(angle) < sharpest))
         return 0.0;
     return angle * length * (a->width * a->width - a->width * b->width + b->width * b->width) / 12.0;

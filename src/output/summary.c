@@ -243,12 +243,12 @@ static int warn_of_cut_off(const OstResult *result, char text[OST_LONGEST_WARNIN
     char share[24];
     if (!(fabs(cut) > small_cut))
         return 0;
-    snprintf(
-        text, OST_LONGEST_WARNING,
-        "faces of the surface meet at small angles: if it is meant to be curved there, its volume is about %s too %s, "
-        "beside the error of the answer; take a finer mesh, or quadratic tets whose mid-edge nodes lie on the "
-        "surface (of a built-in shape: element: {order: 2})",
-        percent(fabs(cut), share), cut > 0.0 ? "small" : "large");
+    snprintf(text, OST_LONGEST_WARNING,
+             "faces of the surface meet at small angles: if it is meant to be curved there, the body has about %s too "
+             "%s a volume, "
+             "beside the error of the answer; take a finer mesh, or quadratic tets whose mid-edge nodes lie on the "
+             "surface (of a built-in shape: element: {order: 2})",
+             percent(fabs(cut), share), cut > 0.0 ? "small" : "large");
     return 1;
 }
 

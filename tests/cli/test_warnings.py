@@ -127,7 +127,7 @@ output: {file: column.vtkhdf}
 
 
 def plane_faces(folder):
-    for order, warned in ((1, "its volume is about 4.7 % too small"), (2, None)):
+    for order, warned in ((1, "the body has about 4.7 % too small a volume"), (2, None)):
         write(folder, "column.yaml", COLUMN.replace("ORDER", str(order)))
         warnings = json.loads(run("solve", "column.yaml", "-q", "--json", "-", folder=folder).output)["warnings"]
         check([text for text in warnings if "meant to be curved" in text] == [text for text in warnings if warned and
