@@ -36,6 +36,13 @@ static const double seconds_power = 1.1, memory_beside = 2.0;
  * out of reach. Refinement then goes on to an error that is small or for so many seconds. */
 static const double far_beyond = 100.0, small_error = 0.02, patience = 60.0;
 
+/* An estimate that was measured by what potentials fell is to be within this share. */
+static const double safety_of_measured = 0.9, aim_of_measured = 0.75;
+
+/* Errors that are more alike than this say little by their difference; volumes may change by such a part of what the
+ * energy does; no estimate is trusted to have missed more. */
+static const double most_alike = 0.9, flat = 0.05, most_missed = 2.0;
+
 /* --- limits --- */
 
 /* Collective. Clocks differ between ranks; rank 0's counts. */
@@ -77,6 +84,12 @@ static double error_of(const OstAdaptLevel *level)
     return level->relative_error;
 }
 
+/* Before what it missed was added. */
+static double estimate_of(const OstAdaptLevel *level)
+{
+    return level->relative_error / level->missed;
+}
+
 /* The error of a quantity falls like the square of that in the norm of the energy. */
 static double power_of(const OstAdaption *adaption)
 {
@@ -90,6 +103,33 @@ static double relative_error(const OstInterestError *interest)
     return interest->sum > 0.0 ? interest->sum / fmax(exact, interest->sum) : 0.0;
 }
 
+/* What the estimate of a level is to be multiplied by; 0 if not known. In nested spaces the potential is above that of
+ * the solution by half of |e|²: so |e|² falls by twice as much as potentials do, and what estimates say that it fell by
+ * can be compared. Near edges, and where stiff directions cross the mesh, they miss about the same part on all levels.
+ * Meshes whose volume changes, as new nodes lie on a curved surface, are not nested; mixed forms have no least
+ * potential. */
+static double find_missed(const OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1], *before = last - 1;
+    if (adaption->watch || adaption->count < 2 || before->order != last->order)
+        return 0.0;
+    const double e = last->error.energy_norm, old = before->error.energy_norm / before->missed;
+    const double fell = 2.0 * (before->potential - last->potential), of_size = fell / fabs(last->potential);
+    if (!(e <= most_alike * old) || !(fell > 0.0) || fabs(last->volume / before->volume - 1.0) > flat * of_size)
+        return 0.0;
+    return fmin(sqrt(fell / (old * old - e * e)), most_missed);
+}
+
+static void add_missed(OstAdaption *adaption, OstStage *stage)
+{
+    OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    const double missed = find_missed(adaption);
+    last->is_measured = missed > 0.0;
+    last->missed = stage->missed = fmax(missed, 1.0);
+    last->error.energy_norm *= last->missed;
+    last->relative_error = adaption->watch ? last->relative_error : fmin(last->missed * last->relative_error, 1.0);
+}
+
 /* The rate of the last two levels of one order, not below the share of that of smooth solutions, which is taken where
  * there are no two. */
 static double rate_of(const OstAdaption *adaption, double least_share)
@@ -99,14 +139,20 @@ static double rate_of(const OstAdaption *adaption, double least_share)
     if (adaption->count < 2 || last[-1].order != last->order)
         return smooth;
     const double found =
-        log(error_of(&last[-1]) / error_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
+        log(estimate_of(&last[-1]) / estimate_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
     return fmin(fmax(found, least_share * smooth), 1.5 * smooth);
+}
+
+static double safety_of(const OstAdaptLevel *level)
+{
+    return level->is_measured ? safety_of_measured : safety;
 }
 
 /* By how much the unknowns of the last level are to grow to meet the request, at a rate. */
 static double growth_to_meet(const OstAdaption *adaption, double rate)
 {
-    return pow(error_of(&adaption->level[adaption->count - 1]) / (safety * adaption->request), 1.0 / rate);
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    return pow(error_of(last) / (safety_of(last) * adaption->request), 1.0 / rate);
 }
 
 static void foretell(OstAdaption *adaption)
@@ -124,7 +170,7 @@ static void foretell(OstAdaption *adaption)
 
 /* --- levels --- */
 
-static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double start)
+static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start)
 {
     OstAdaptLevel *level = &adaption->level[adaption->count++];
     const OstResult *result = stage->result;
@@ -137,10 +183,15 @@ static OstStatus note_level(OstAdaption *adaption, const OstStage *stage, double
                         .off = result->interest.error,
                         .shares = result->interest.sum,
                         .relative_error = adaption->watch ? relative_error(&result->interest) : result->answer.relative,
+                        .missed = 1.0,
                         .strain_energy = result->checks.strain_energy,
+                        .potential = stage->potential,
+                        .volume = stage->volume,
                         .iterations = result->solve.iterations,
                         .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
     level->error.known &= !adaption->watch || result->interest.watch;
+    if (level->error.known)
+        add_missed(adaption, stage);
     OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
     OST_TRY(seconds_since(adaption->ctx, start, &level->seconds));
     ost_log(adaption->ctx, OST_LOG_VERBOSE,
@@ -177,8 +228,10 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     const double error = error_of(last), power = power_of(adaption);
-    const double wanted = fmax(aim * adaption->request, error / pow(most_reduction[order], power));
-    const double square = adaption->watch ? last->shares : last->error.energy_norm * last->error.energy_norm;
+    const double wanted = fmax((last->is_measured ? aim_of_measured : aim) * adaption->request,
+                               error / pow(most_reduction[order], power));
+    const double norm = last->error.energy_norm / last->missed; /* as the tets' shares have it */
+    const double square = adaption->watch ? last->shares : norm * norm;
     const double fall = fmin(wanted / error, 1.0);
     const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)), target = square * pow(fall, 2.0 / power);
     const double most = fmin(growth, most_growth);
@@ -232,7 +285,7 @@ static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *ove
 static int is_over(OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    const int met = error_of(last) <= safety * adaption->request;
+    const int met = error_of(last) <= safety_of(last) * adaption->request;
     const int over = !last->error.known || met || adaption->count == OST_MOST_ADAPT_LEVELS;
     if (over)
         adaption->end = !last->error.known ? OST_ADAPT_NO_ESTIMATE : met ? OST_ADAPT_MET : OST_ADAPT_OUT_OF_LEVELS;

@@ -99,10 +99,11 @@ json_t *ost_adaption_json(const OstAdaption *adaption)
         const OstAdaptLevel *level = &adaption->level[l];
         json_array_append_new(
             levels,
-            json_pack("{s:i, s:I, s:I, s:i, s:o, s:o, s:o, s:f, s:f}", "order", level->order, "tets",
+            json_pack("{s:i, s:I, s:I, s:i, s:o, s:o, s:o, s:o, s:f, s:f}", "order", level->order, "tets",
                       (json_int_t)level->tets, "unknowns", (json_int_t)level->unknowns, "iterations", level->iterations,
                       "relative_error", level->error.known ? ost_json_number(level->relative_error) : json_null(),
                       "energy_norm_error", level->error.known ? ost_json_number(level->error.energy_norm) : json_null(),
+                      "missed", level->is_measured ? ost_json_number(level->missed) : json_null(),
                       "strain_energy", ost_json_number(level->strain_energy), "seconds", level->seconds, "bytes",
                       level->bytes));
     }

@@ -3,16 +3,19 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "problem/scene_parts.h"
 #include "recovery/recovery.h"
 #include "solve/strategy.h"
 
+#include <math.h>
 #include <string.h>
 
 OstStatus ost_stage_create(OstContext *ctx, OstStage **stage)
 {
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, stage, 1)));
     (*stage)->ctx = ctx;
+    (*stage)->missed = 1.0;
     return OST_SUCCESS;
 }
 
@@ -71,6 +74,20 @@ static OstStatus learn(OstStage *stage)
     return OST_SUCCESS;
 }
 
+static OstStatus measure(OstStage *stage)
+{
+    const OstMesh *mesh = stage->scene->mesh;
+    double work = 0.0;
+    stage->volume = 0.0;
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        stage->volume += ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, t));
+    OST_TRY(ost_sum(stage->ctx, 1, &stage->volume));
+    OST_TRY(ost_problem_energy(stage->problem, 1.0, stage->result->displacement, &stage->potential));
+    OST_TRY(ost_problem_load_work(stage->problem, 1.0, stage->result->displacement, &work));
+    stage->potential = stage->problem->pressures ? NAN : stage->potential - work;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_stage_solve(OstStage *stage)
 {
     OstStatus status = ost_scene_problem(stage->scene, &stage->problem);
@@ -81,8 +98,10 @@ OstStatus ost_stage_solve(OstStage *stage)
         status = ost_analysis_solve(stage->analysis, 1U << OST_FIELD_ERROR, &stage->result);
         stage->analysis->start = NULL;
     }
-    if (status == OST_SUCCESS && stage->result->answer.known)
+    if (status == OST_SUCCESS && stage->result->answer.known) {
         status = ost_agree(stage->ctx, learn(stage));
+        OST_THEN(measure(stage));
+    }
     OST_FREE(stage->start);
     return status;
 }
@@ -106,6 +125,15 @@ static OstStatus solve_again(OstStage *stage)
     return ost_stage_solve(stage);
 }
 
+static void add_missed(OstStage *stage)
+{
+    OstResult *result = stage->result;
+    result->answer.energy_norm *= stage->missed;
+    result->answer.relative = fmin(stage->missed * result->answer.relative, 1.0);
+    for (OstLocal t = 0; t < stage->scene->mesh->owned_tets && result->tet_error; t++)
+        result->tet_error[t] *= stage->missed;
+}
+
 OstStatus ost_stage_finish(OstStage *stage)
 {
     if (!stage->analysis && watches_reaction(&stage->c))
@@ -113,6 +141,7 @@ OstStatus ost_stage_finish(OstStage *stage)
     if (stage->analysis)
         OST_TRY(ost_analysis_find_reactions(stage->analysis, stage->result));
     release_analysis(stage);
+    add_missed(stage);
     stage->result->asked = ost_scene_result_fields(stage->scene);
     return ost_agree(stage->ctx, ost_result_recover(stage->result, stage->result->asked));
 }

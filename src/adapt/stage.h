@@ -18,9 +18,11 @@ typedef struct Stage {
     OstProblem *problem;     /* with the analysis, until the next level is made: the last one finds reactions' errors */
     OstAnalysis *analysis;
     OstResult *result;
-    double *fall;   /* of each own tet's share of the squared error, expected of its next cuts */
-    double *before; /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
-    int *cuts;      /* and how often that was cut */
+    double potential, volume; /* strain energy less the loads' work, NAN where it is not least; of the body */
+    double missed;            /* what the estimate is to be multiplied by; found by the levels, 1 if not known */
+    double *fall;             /* of each own tet's share of the squared error, expected of its next cuts */
+    double *before;           /* share and fall of the tet that each own tet is made of, two numbers each; or NULL */
+    int *cuts;                /* and how often that was cut */
 } OstStage;
 
 /* Collective, as all that follows. An empty stage. */
@@ -36,8 +38,8 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 /* Solves, and estimates the error. */
 OstStatus ost_stage_solve(OstStage *stage);
 
-/* Completes the result of the last level: errors of watched reactions, which the others do without, and the fields that
- * the case asks for. */
+/* Completes the result of the last level: errors of watched reactions, which the others do without, what the estimate
+ * missed, and the fields that the case asks for. */
 OstStatus ost_stage_finish(OstStage *stage);
 
 #endif

@@ -4,6 +4,7 @@
 #include "adapt/adapt.h"
 #include "adapt/mark.h"
 #include "adapt/stage.h"
+#include "core/parallel/reduce.h"
 
 /* A beam of three cells, clamped at one end, where edges and corners are singular, and pushed aside at the other. */
 #define BEAM                                                                             \
@@ -49,13 +50,55 @@ static void a_request_is_met_and_not_by_far(void **state)
         snprintf(text, sizeof text, BEAM "accuracy: {relative_error: %g}\n", request[r]);
         OstAdaption *adaption = adapt(text, &no_limits, &c);
         assert_int_equal(adaption->end, OST_ADAPT_MET);
-        assert_true(last_of(adaption)->error.relative <= 0.75 * request[r]);
+        assert_true(last_of(adaption)->error.relative <= 0.9 * request[r]);
         assert_true(true_error(adaption, energy) < request[r]);
         assert_true(true_error(adaption, energy) > 0.3 * request[r]);
         assert_int_equal(ost_adaption_result(adaption)->unknowns, last_of(adaption)->unknowns);
         assert_int_equal(ost_adaption_scene(adaption)->mesh->global_tets, last_of(adaption)->tets);
         end(&adaption, &c);
     }
+}
+
+/* Near the clamped edges an estimate alone finds 0.8 of the error; what the last levels gained tells the rest. The
+ * energy that is not known is that of the finer answer, with its own error added. */
+static void what_levels_gain_measures_the_estimate(void **state)
+{
+    OstCase *coarse_case = NULL, *fine_case = NULL;
+    OstAdaption *coarse = adapt(BEAM "accuracy: {relative_error: 0.06}\n", &no_limits, &coarse_case);
+    OstAdaption *fine = adapt(BEAM "accuracy: {relative_error: 0.02}\n", &no_limits, &fine_case);
+    const OstResult *result = ost_adaption_result(coarse);
+    const double left = last_of(fine)->error.energy_norm;
+    const double energy = last_of(fine)->strain_energy + 0.5 * left * left;
+    const double whole = true_error(coarse, energy) * sqrt(2.0 * energy);
+    double square = 0.0;
+    assert_true(last_of(coarse)->is_measured && last_of(coarse)->missed > 1.1);
+    assert_true(last_of(coarse)->error.energy_norm / last_of(coarse)->missed < 0.9 * whole);
+    assert_true(fabs(result->answer.energy_norm / whole - 1.0) < 0.08);
+    for (OstLocal t = 0; t < ost_adaption_scene(coarse)->mesh->owned_tets; t++)
+        square += result->tet_error[t] * result->tet_error[t];
+    assert_success(ost_sum(coarse->ctx, 1, &square));
+    assert_true(fabs(sqrt(square) / result->answer.energy_norm - 1.0) < 1e-6);
+    end(&coarse, &coarse_case);
+    end(&fine, &fine_case);
+}
+
+/* The volume of a tube grows as its faces follow the surface: potentials tell nothing there. */
+static void meshes_that_are_not_nested_measure_nothing(void **state)
+{
+    OstCase *c = NULL;
+    OstAdaption *adaption =
+        adapt("mesh: {tube: {axis: z, length: 2, radii: [0.6, 1], divisions: {around: 8, radial: 1, axial: 3}}}\n"
+              "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]\n"
+              "constraints: [{on: {boundary: bottom}, displacement: [0, 0, 0]}]\n"
+              "loads: [{on: {boundary: top}, traction: [100, 0, 0]}]\nlarge_rotation: off\n"
+              "accuracy: {relative_error: 0.1}\n",
+              &no_limits, &c);
+    assert_int_equal(adaption->end, OST_ADAPT_MET);
+    assert_true(adaption->count > 2);
+    for (int k = 0; k < adaption->count; k++)
+        assert_false(adaption->level[k].is_measured);
+    assert_true(last_of(adaption)->error.relative <= 0.75 * 0.1);
+    end(&adaption, &c);
 }
 
 /* A reaction takes an adjoint problem: the level that stays the last solves it, and no other. */
@@ -215,6 +258,8 @@ static void marks_make_shares_equal(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_request_is_met_and_not_by_far),
+    cmocka_unit_test(what_levels_gain_measures_the_estimate),
+    cmocka_unit_test(meshes_that_are_not_nested_measure_nothing),
     cmocka_unit_test(only_the_last_level_finds_the_errors_of_reactions),
     cmocka_unit_test(levels_start_from_the_last_answer),
     cmocka_unit_test(the_order_of_the_case_is_kept),
