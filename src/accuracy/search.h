@@ -24,6 +24,7 @@ typedef struct OstEstimate {
     OstOperator stiffness;
     float *factor;                    /* of the functions' blocks, once they are known */
     int has_factor;                   /* of linear theory */
+    int knows_orders;                 /* do the orders of u tell what orders above the next add to e? */
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
 } OstEstimate;

@@ -59,21 +59,28 @@ static void a_request_is_met_and_not_by_far(void **state)
     }
 }
 
-/* Near the clamped edges an estimate alone finds 0.8 of the error; what the last levels gained tells the rest. The
- * energy that is not known is that of the finer answer, with its own error added. */
+/* Where stiff directions cross the tets an estimate alone finds two thirds of the error; what the last levels gained
+ * tells the rest. The energy that is not known is that of the finer answer, with its own error added. */
+#define CROSSED                                                                         \
+    "mesh: {block: {size: [9.42, 1, 1.3], divisions: [4, 2, 1]}}\n"                     \
+    "materials: [{region: all, youngs_modulus: [1e6, 1e8, 1e6], poissons_ratio: 0.3,\n" \
+    "             axes: {rotation: {axis: [0.58, -0.81, 1], degrees: 12}}}]\n"          \
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"                  \
+    "loads: [{on: {boundary: zmax}, traction: [-0.13, 0.52, -1]}]\nlarge_rotation: off\n"
+
 static void what_levels_gain_measures_the_estimate(void **state)
 {
     OstCase *coarse_case = NULL, *fine_case = NULL;
-    OstAdaption *coarse = adapt(BEAM "accuracy: {relative_error: 0.06}\n", &no_limits, &coarse_case);
-    OstAdaption *fine = adapt(BEAM "accuracy: {relative_error: 0.02}\n", &no_limits, &fine_case);
+    OstAdaption *coarse = adapt(CROSSED "accuracy: {relative_error: 0.12}\n", &no_limits, &coarse_case);
+    OstAdaption *fine = adapt(CROSSED "accuracy: {relative_error: 0.04}\n", &no_limits, &fine_case);
     const OstResult *result = ost_adaption_result(coarse);
     const double left = last_of(fine)->error.energy_norm;
     const double energy = last_of(fine)->strain_energy + 0.5 * left * left;
     const double whole = true_error(coarse, energy) * sqrt(2.0 * energy);
     double square = 0.0;
     assert_true(last_of(coarse)->is_measured && last_of(coarse)->missed > 1.1);
-    assert_true(last_of(coarse)->error.energy_norm / last_of(coarse)->missed < 0.9 * whole);
-    assert_true(fabs(result->answer.energy_norm / whole - 1.0) < 0.08);
+    assert_true(last_of(coarse)->error.energy_norm / last_of(coarse)->missed < 0.75 * whole);
+    assert_true(fabs(result->answer.energy_norm / whole - 1.0) < 0.12);
     for (OstLocal t = 0; t < ost_adaption_scene(coarse)->mesh->owned_tets; t++)
         square += result->tet_error[t] * result->tet_error[t];
     assert_success(ost_sum(coarse->ctx, 1, &square));
@@ -90,7 +97,7 @@ static void meshes_that_are_not_nested_measure_nothing(void **state)
         adapt("mesh: {tube: {axis: z, length: 2, radii: [0.6, 1], divisions: {around: 8, radial: 1, axial: 3}}}\n"
               "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]\n"
               "constraints: [{on: {boundary: bottom}, displacement: [0, 0, 0]}]\n"
-              "loads: [{on: {boundary: top}, traction: [100, 0, 0]}]\nlarge_rotation: off\n"
+              "loads: [{on: {boundary: inner}, pressure: 100}]\nlarge_rotation: off\n"
               "accuracy: {relative_error: 0.1}\n",
               &no_limits, &c);
     assert_int_equal(adaption->end, OST_ADAPT_MET);
@@ -258,14 +265,14 @@ static void marks_make_shares_equal(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_request_is_met_and_not_by_far),
-    cmocka_unit_test(what_levels_gain_measures_the_estimate),
-    cmocka_unit_test(meshes_that_are_not_nested_measure_nothing),
     cmocka_unit_test(only_the_last_level_finds_the_errors_of_reactions),
     cmocka_unit_test(levels_start_from_the_last_answer),
     cmocka_unit_test(the_order_of_the_case_is_kept),
     cmocka_unit_test(limits_leave_the_best_answer_and_the_price_of_the_rest),
     cmocka_unit_test(what_no_memory_allows_ends_early),
     cmocka_unit_test(marks_make_shares_equal),
+    cmocka_unit_test(what_levels_gain_measures_the_estimate),
+    cmocka_unit_test(meshes_that_are_not_nested_measure_nothing),
 };
 
 OST_TEST_MAIN(tests)

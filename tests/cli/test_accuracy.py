@@ -39,7 +39,14 @@ adaption = report["adaption"]
 levels = adaption["levels"]
 check(adaption["met"] and adaption["end"] == "met" and adaption["asked"] == 0.1, f"met: {adaption}")
 check(levels[0]["order"] == 1 and levels[-1]["order"] == 2, "from linear tets to quadratic ones")
-check(levels[-1]["relative_error"] <= 0.075 < levels[-2]["relative_error"], "no level too many")
+
+
+def is_enough(level):
+    return level["relative_error"] <= (0.075 if level["missed"] is None else 0.09)
+
+
+check(is_enough(levels[-1]) and not is_enough(levels[-2]), f"no level too many: {levels}")
+check(levels[1]["missed"] is None and levels[-1]["missed"] >= 1, "the estimate is measured from two levels of quadratic tets on")
 check(levels[-1]["tets"] == report["tets"] and levels[-1]["unknowns"] == report["unknowns"], "the result is the last level")
 check("10 % asked for" in done.output and str(levels[-1]["unknowns"]) in done.output, done.output)
 check(os.path.getsize(os.path.join(folder, "beam.vtkhdf")) > 0, "a file of the last mesh")
@@ -86,3 +93,37 @@ for divisions in ([9, 2, 2], [18, 3, 3]):
     energy, off = bend(divisions, 1)
     true = (energy / exact - 1) ** 0.5
     check(0.9 < off / true < 1.1, f"{divisions}: {off} estimated, {true} true")
+
+# Loads alone act, so the energy that is missing is half the squared error. The exact ones are those of meshes refined for
+# 0.5 % (2,222,079 unknowns) and 2 % (390,093), with what these miss.
+CLAMPED = """title: a block clamped below, whose edges are singular
+mesh: {block: {size: [2.74, 2.46, 1.46], divisions: [2, 1, 3]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0}]
+constraints: [{on: {boundary: zmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, traction: [-0.79, -0.71, -0.85]}]
+large_rotation: off
+"""
+CROSSED = """title: linear tets that stiff directions cross
+mesh: {block: {size: [9.42, 1, 1.3], divisions: [4, 2, 1]}}
+materials:
+  - {region: all, youngs_modulus: [1e6, 1e8, 1e6], poissons_ratio: 0.3,
+     axes: {rotation: {axis: [0.58, -0.81, 1], degrees: 12}}}
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: zmax}, traction: [-0.13, 0.52, -1]}]
+large_rotation: off
+"""
+for case, exact, refinements, least in (
+    (CLAMPED, 5.155362315e-6 * (1 + 0.0036**2), (0, 1), 0.9),  # 0.75 and 0.82 without what higher orders would find
+    (CROSSED, 0.01429880978 * (1 + 0.015**2), (2,), 0.7),  # 0.58 by three steps of the search for the error
+):
+    with open(os.path.join(folder, "block.yaml"), "w", encoding="utf-8") as stream:
+        stream.write(case)
+    for refinement in refinements:
+        done = run("solve", "block.yaml", "--json", "block.json", "--set", f"mesh.refine={refinement}", folder=folder)
+        check(done.exit_code == 0, done.errors)
+        with open(os.path.join(folder, "block.json"), encoding="utf-8") as stream:
+            found = json.load(stream)
+        true = (1 - found["checks"]["strain_energy"] / exact) ** 0.5
+        quotient = found["answer_error"]["relative"] / true
+        check(least < quotient < 1.1, f"refined {refinement} times: {quotient} of {true}")
