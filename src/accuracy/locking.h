@@ -9,8 +9,8 @@ int ost_is_nearly_incompressible(const OstProblem *problem);
 
 /* Collective. Do stiff directions cross the tets, so that linear ones, whose edges cannot follow them, are held by
  * them? Measured is the squared length in the material metric of a unit step along the edge that is stiffest, over that
- * along the stiff direction, as a mean over the tets; where two directions are as stiff, that of the second stiffest
- * edge. It is 1 to 1.2 in meshes that follow the axes, and for isotropic bodies. */
+ * along the stiff direction, as a mean over some 10,000 tets; where two directions are as stiff, that of the second
+ * stiffest edge. It is 1 to 1.2 in meshes that follow the axes, and for isotropic bodies. */
 OstStatus ost_stiff_directions_cross(const OstProblem *problem, int *cross);
 
 #endif
