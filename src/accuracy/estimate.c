@@ -61,6 +61,8 @@ static OstStatus create(OstEstimate *estimate)
     const int is_quadratic = problem->mesh->nodes_per_tet == 10;
     int is_locked = ost_is_nearly_incompressible(problem);
     if (!is_quadratic && !is_locked)
+        OST_TRY(ost_has_few_layers(problem->mesh, estimate->complement.owned_edges, &is_locked));
+    if (!is_quadratic && !is_locked)
         OST_TRY(ost_stiff_directions_cross(problem, &is_locked));
     estimate->enough = is_quadratic ? enough_of_quadratic : is_locked ? enough_of_locked : enough_of_linear;
     estimate->knows_orders = is_quadratic && !is_locked;

@@ -67,3 +67,14 @@ OstStatus ost_stiff_directions_cross(const OstProblem *problem, int *cross)
     *cross = sum[0] > 1.25 * sum[1];
     return OST_SUCCESS;
 }
+
+/* By Euler's formula vertices - edges + faces - tets is a small number, half of the surface's faces are its vertices,
+ * and tets have four faces, those inside two tets. */
+OstStatus ost_has_few_layers(const OstMesh *mesh, OstLocal edges, int *few)
+{
+    double all_edges = (double)edges;
+    OST_TRY(ost_sum(mesh->ctx, 1, &all_edges));
+    const double vertices = (double)mesh->global_nodes;
+    *few = all_edges - vertices - (double)mesh->global_tets > 0.45 * vertices;
+    return OST_SUCCESS;
+}
