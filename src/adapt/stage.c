@@ -74,17 +74,21 @@ static OstStatus learn(OstStage *stage)
     return OST_SUCCESS;
 }
 
+/* A mixed form's potential is not the least, nor need that of large rotations be near it. */
 static OstStatus measure(OstStage *stage)
 {
     const OstMesh *mesh = stage->scene->mesh;
     double work = 0.0;
+    stage->potential = NAN;
+    if (stage->problem->pressures || !ost_problem_is_linear(stage->problem))
+        return OST_SUCCESS;
     stage->volume = 0.0;
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         stage->volume += ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, t));
     OST_TRY(ost_sum(stage->ctx, 1, &stage->volume));
     OST_TRY(ost_problem_energy(stage->problem, 1.0, stage->result->displacement, &stage->potential));
     OST_TRY(ost_problem_load_work(stage->problem, 1.0, stage->result->displacement, &work));
-    stage->potential = stage->problem->pressures ? NAN : stage->potential - work;
+    stage->potential -= work;
     return OST_SUCCESS;
 }
 
