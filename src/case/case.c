@@ -563,7 +563,7 @@ unsigned ost_case_recovers(const OstCase *c)
 {
     int stress = c->probe_count;
     for (int w = 0; w < c->watch_count; w++)
-        stress += c->watches[w].kind == OST_WATCH_STRESS;
+        stress += ost_watch_is_of_stress(&c->watches[w]);
     return c->output_fields | (stress > 0 ? 1U << OST_FIELD_STRESS | 1U << OST_FIELD_MATERIAL_STRESS : 0U);
 }
 

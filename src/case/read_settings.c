@@ -58,11 +58,11 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
                               "'%.80s' is not watched; name a quantity of the section 'watch', or energy for the norm "
                               "of the energy",
                               name);
-    if (c->watches[c->interest - 1].kind == OST_WATCH_STRESS)
+    if (ost_watch_is_of_stress(&c->watches[c->interest - 1]))
         return ost_yaml_raise(yaml, node,
-                              "'%.80s' is a stress, whose error is not estimated; name a displacement, a reaction or "
+                              "'%.80s' is a %s, for whose error no mesh is refined; name a displacement, a reaction or "
                               "the strain energy",
-                              name);
+                              name, c->watches[c->interest - 1].kind == OST_WATCH_STRESS ? "stress" : "load factor");
     return OST_SUCCESS;
 }
 
