@@ -278,6 +278,7 @@ struct OstCase {
     unsigned output_fields; /* bits of OstOutputField */
     int probe_count;
     OstProbe *probes;    /* tables of points, beside the output file */
+    int envelope;        /* is one of the load cases written? */
     int load_case_count; /* 0: there are none. Else loads, supports and springs above are those of all */
     OstLoadCase *load_cases;
     int sweep_count; /* of keys */

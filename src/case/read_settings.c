@@ -222,17 +222,21 @@ static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsig
 
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { FILE_NAME, FIELDS, PROBES };
+    enum { FILE_NAME, FIELDS, PROBES, ENVELOPE };
     OstYamlKey keys[] = {
         [FILE_NAME] = {.name = "file"},
         [FIELDS] = {.name = "fields"},
         [PROBES] = {.name = "probes"},
+        [ENVELOPE] = {.name = "envelope"},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[FIELDS].value)
         OST_TRY(read_fields(yaml, keys[FIELDS].value, &c->output_fields));
     if (keys[PROBES].value)
         OST_TRY(ost_read_probes(yaml, keys[PROBES].value, &c->probe_count, &c->probes));
+    if (keys[ENVELOPE].value)
+        OST_TRY(ost_yaml_word(yaml, keys[ENVELOPE].value, "answer", (const char *const[]){"false", "true"}, 2,
+                              &c->envelope));
     if (!keys[FILE_NAME].value)
         return OST_SUCCESS;
     OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));

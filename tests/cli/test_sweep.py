@@ -117,9 +117,10 @@ for ranks in fewer((1, 2)):
     check(report["load_cases"] == NAMES and report["watched"] == ["end", "rise"], report)
     run("solve", "cases.yaml", "--set", "materials.all.E1=500", "--json", "solved.json", ranks=ranks, folder=folder)
     for one, solved in zip(report["runs"], read_json(folder, "solved.json")["cases"]):
-        check(one["load_case"] == solved["load_case"] and one["iterations"] == solved["solver"]["iterations"], (one, solved))
+        check(one["load_case"] == solved["load_case"] and one["iterations"] == solved["solver"]["iterations"], f"{one}, {solved}")
         for name, watched in one["watched"].items():
-            check(watched == solved["watched"].get(name, {"value": None})["value"], (one, solved["watched"]))
+            alone = solved["watched"].get(name, {"value": None})["value"]
+            check(watched == alone or abs(watched - alone) < 1e-9 * abs(alone), f"{one}, {solved['watched']}")
     check(rows[0]["rise"] == "" and float(rows[1]["rise"]) > 0, rows)
 
 one = run("sweep", "cases.yaml", "--case", "bend", "--over", "loads.0.value.x=1,2", "--json", "bar.json", folder=folder)

@@ -129,12 +129,12 @@ static void name_run(const OstSweep *sweep, int number, size_t size, char *name)
              load_case ? load_case : "");
 }
 
-static void show_progress(const OstSweep *sweep, int number, double done)
+static void show_progress(const OstSweep *sweep, int number, int done)
 {
     char name[128], what[160];
     name_run(sweep, number, sizeof name, name);
     snprintf(what, sizeof what, "sweep: %s", name);
-    ost_progress_task(sweep->ctx, what, done / sweep->run_count);
+    ost_progress_task(sweep->ctx, what, done, sweep->run_count);
 }
 
 /* What is wrong with the case itself shows in the first run. */
@@ -264,7 +264,7 @@ OstStatus ost_sweep_run(OstSweep *sweep)
     sweep->run_count = (int)runs;
     for (int number = 0; number < sweep->run_count / runs_of_value(sweep); number++)
         OST_TRY(solve_value(sweep, number));
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     return OST_SUCCESS;
 }
 
