@@ -60,7 +60,7 @@ OstLogLevel ost_log_level(const OstContext *ctx);
 void ost_log(OstContext *ctx, OstLogLevel level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ost_warn(OstContext *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ost_progress(OstContext *ctx, const char *what, double fraction);
-void ost_progress_task(OstContext *ctx, const char *what, double fraction);
+void ost_progress_task(OstContext *ctx, const char *what, int done, int count);
 
 /* Local. Hands every warning of rank 0 to `hear` too, quiet or not; NULL ends it. */
 void ost_warn_listen(OstContext *ctx, void (*hear)(void *listener, const char *text), void *listener);

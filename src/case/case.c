@@ -227,6 +227,7 @@ static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     OST_TRY(check_load_cases(yaml, keys[CASES].value, c));
+    OST_TRY(ost_check_envelope(yaml, keys[CASES].value, keys[OUTPUT].value, c));
     if (c->interest > 0 && c->free_body)
         return ost_yaml_raise(yaml, keys[ACCURACY].value,
                               "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "
@@ -563,7 +564,8 @@ unsigned ost_case_recovers(const OstCase *c)
 {
     int stress = c->probe_count;
     for (int w = 0; w < c->watch_count; w++)
-        stress += c->watches[w].kind == OST_WATCH_STRESS;
+        stress += ost_watch_is_of_stress(&c->watches[w]);
+    stress += c->envelope;
     return c->output_fields | (stress > 0 ? 1U << OST_FIELD_STRESS | 1U << OST_FIELD_MATERIAL_STRESS : 0U);
 }
 

@@ -166,7 +166,13 @@ typedef struct OstCaseField {
 } OstCaseField;
 
 /* A quantity of interest; `orthostat cost` finds what its error costs. */
-typedef enum { OST_WATCH_DISPLACEMENT, OST_WATCH_REACTION, OST_WATCH_STRAIN_ENERGY, OST_WATCH_STRESS } OstWatchKind;
+typedef enum {
+    OST_WATCH_DISPLACEMENT,
+    OST_WATCH_REACTION,
+    OST_WATCH_STRAIN_ENERGY,
+    OST_WATCH_STRESS,
+    OST_WATCH_LOAD_FACTOR /* the least of a region, to failure */
+} OstWatchKind;
 
 /* What is taken of the stresses of a region. */
 typedef enum { OST_TAKE_MEAN, OST_TAKE_LEAST, OST_TAKE_LARGEST } OstTake;
@@ -183,14 +189,21 @@ typedef struct OstWatch {
     OstSelection on; /* DISPLACEMENT: NEAREST, of the vertices; REACTION: any, summed up; not used by the others */
     int of_moment;   /* REACTION: the moment of the reactions about the point `about`? */
     double about[3];
-    int component; /* 0 to 2, or OST_WATCH_LENGTH; STRESS: OstStressMeasure */
-    char *region;  /* STRESS: of the tets of a region, or "all"; NULL: at the point `at` */
+    int component; /* 0 to 2, or OST_WATCH_LENGTH; STRESS: OstStressMeasure; LOAD_FACTOR: OstCriterion, or OST_CRITERIA
+                      for the least of all */
+    char *region;  /* STRESS, LOAD_FACTOR: of the tets of a region, or "all"; NULL: at the point `at` */
     OstPlace region_place;
     double at[3];
     OstTake take;
     double expected; /* NAN if not known */
     char *source;    /* where `expected` is from, or NULL */
 } OstWatch;
+
+/* Is it made of the stress? */
+static inline int ost_watch_is_of_stress(const OstWatch *watch)
+{
+    return watch->kind == OST_WATCH_STRESS || watch->kind == OST_WATCH_LOAD_FACTOR;
+}
 
 typedef enum {
     OST_MESH_TUBE,
@@ -265,6 +278,7 @@ struct OstCase {
     unsigned output_fields; /* bits of OstOutputField */
     int probe_count;
     OstProbe *probes;    /* tables of points, beside the output file */
+    int envelope;        /* is one of the load cases written? */
     int load_case_count; /* 0: there are none. Else loads, supports and springs above are those of all */
     OstLoadCase *load_cases;
     int sweep_count; /* of keys */

@@ -189,6 +189,23 @@ OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int 
     return OST_SUCCESS;
 }
 
+OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output, const OstCase *c)
+{
+    if (c->envelope && !cases)
+        return ost_yaml_raise(yaml, output, "an envelope is of load cases, and there are none ('cases')");
+    if (c->envelope && c->asks_error)
+        return ost_yaml_raise(yaml, output,
+                              "an envelope needs one mesh for all load cases, and an accuracy that is asked for gives "
+                              "each its own; leave out 'envelope' or 'relative_error'");
+    for (int k = 0; c->envelope && k < c->load_case_count; k++)
+        if (strcasecmp(c->load_cases[k].name, "envelope") == 0)
+            return ost_yaml_raise(yaml, output,
+                                  "the file of the envelope has the name of the load case '%s', in line %d; "
+                                  "choose another name",
+                                  c->load_cases[k].name, c->load_cases[k].line);
+    return OST_SUCCESS;
+}
+
 void ost_load_cases_release(OstCase *c)
 {
     for (int k = 0; k < c->load_case_count; k++) {

@@ -58,11 +58,11 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
                               "'%.80s' is not watched; name a quantity of the section 'watch', or energy for the norm "
                               "of the energy",
                               name);
-    if (c->watches[c->interest - 1].kind == OST_WATCH_STRESS)
+    if (ost_watch_is_of_stress(&c->watches[c->interest - 1]))
         return ost_yaml_raise(yaml, node,
-                              "'%.80s' is a stress, whose error is not estimated; name a displacement, a reaction or "
+                              "'%.80s' is a %s, for whose error no mesh is refined; name a displacement, a reaction or "
                               "the strain energy",
-                              name);
+                              name, c->watches[c->interest - 1].kind == OST_WATCH_STRESS ? "stress" : "load factor");
     return OST_SUCCESS;
 }
 
@@ -222,17 +222,21 @@ static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsig
 
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    enum { FILE_NAME, FIELDS, PROBES };
+    enum { FILE_NAME, FIELDS, PROBES, ENVELOPE };
     OstYamlKey keys[] = {
         [FILE_NAME] = {.name = "file"},
         [FIELDS] = {.name = "fields"},
         [PROBES] = {.name = "probes"},
+        [ENVELOPE] = {.name = "envelope"},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[FIELDS].value)
         OST_TRY(read_fields(yaml, keys[FIELDS].value, &c->output_fields));
     if (keys[PROBES].value)
         OST_TRY(ost_read_probes(yaml, keys[PROBES].value, &c->probe_count, &c->probes));
+    if (keys[ENVELOPE].value)
+        OST_TRY(ost_yaml_word(yaml, keys[ENVELOPE].value, "answer", (const char *const[]){"false", "true"}, 2,
+                              &c->envelope));
     if (!keys[FILE_NAME].value)
         return OST_SUCCESS;
     OST_TRY(ost_read_string(yaml, keys[FILE_NAME].value, &c->output_file));

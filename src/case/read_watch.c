@@ -49,6 +49,37 @@ static OstStatus read_stress_keys(const OstYaml *yaml, const OstYamlNode *node, 
     return OST_SUCCESS;
 }
 
+/* The least of a region. */
+static OstStatus read_load_factor(const OstYaml *yaml, const OstYamlNode *node, const OstYamlNode *criterion,
+                                  OstWatch *watch)
+{
+    static const char *const words[] = {[OST_TSAI_WU] = "tsai_wu",
+                                        [OST_HILL] = "hill",
+                                        [OST_MAXIMUM_STRESS] = "maximum_stress",
+                                        [OST_CRITERIA] = "least"};
+    OstYamlKey keys[] = {{.name = "region", .needed = 1}};
+    watch->component = OST_CRITERIA;
+    watch->take = OST_TAKE_LEAST;
+    if (criterion)
+        OST_TRY(ost_yaml_word(yaml, criterion, "criterion", words, OST_COUNT_OF(words), &watch->component));
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    watch->region_place = ost_yaml_at(keys[0].value);
+    return ost_read_string(yaml, keys[0].value, &watch->region);
+}
+
+/* Keys that belong to one kind alone. */
+static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *take, const OstYamlNode *criterion,
+                            const OstYamlNode *component, const OstWatch *watch)
+{
+    if (take && watch->kind != OST_WATCH_STRESS)
+        return ost_yaml_raise(yaml, take, "'take' belongs to the stress of a region");
+    if (criterion && watch->kind != OST_WATCH_LOAD_FACTOR)
+        return ost_yaml_raise(yaml, criterion, "'criterion' belongs to a load factor");
+    if (component && watch->kind == OST_WATCH_LOAD_FACTOR)
+        return ost_yaml_raise(yaml, component, "a load factor has no component; it may have a 'criterion'");
+    return OST_SUCCESS;
+}
+
 /* A quantity must be the same at every refinement: a vertex is, the mean over selected vertices is not. */
 static OstStatus read_displacement(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
@@ -103,14 +134,16 @@ static OstStatus read_about(const OstYaml *yaml, const OstYamlNode *about, OstWa
 
 static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWatch *watch)
 {
-    enum { FORMS = OST_WATCH_STRESS + 1, COMPONENT = FORMS, TAKE, ABOUT, EXPECTED, SOURCE };
+    enum { FORMS = OST_WATCH_LOAD_FACTOR + 1, COMPONENT = FORMS, TAKE, CRITERION, ABOUT, EXPECTED, SOURCE };
     OstYamlKey keys[] = {
         [OST_WATCH_DISPLACEMENT] = {.name = "displacement"},
         [OST_WATCH_REACTION] = {.name = "reaction"},
         [OST_WATCH_STRAIN_ENERGY] = {.name = "strain_energy"},
         [OST_WATCH_STRESS] = {.name = "stress"},
+        [OST_WATCH_LOAD_FACTOR] = {.name = "load_factor"},
         [COMPONENT] = {.name = "component"},
         [TAKE] = {.name = "take"},
+        [CRITERION] = {.name = "criterion"},
         [ABOUT] = {.name = "about"},
         [EXPECTED] = {.name = "expected"},
         [SOURCE] = {.name = "source"},
@@ -126,10 +159,11 @@ static OstStatus read_watch(const OstYaml *yaml, const OstYamlNode *node, OstWat
     OST_TRY(read_expected(yaml, keys[EXPECTED].value, keys[SOURCE].value, watch));
     watch->kind = (OstWatchKind)form;
     OST_TRY(read_about(yaml, keys[ABOUT].value, watch));
+    OST_TRY(check_keys(yaml, keys[TAKE].value, keys[CRITERION].value, keys[COMPONENT].value, watch));
+    if (watch->kind == OST_WATCH_LOAD_FACTOR)
+        return read_load_factor(yaml, keys[form].value, keys[CRITERION].value, watch);
     if (watch->kind == OST_WATCH_STRESS)
         return read_stress_keys(yaml, node, keys[form].value, keys[COMPONENT].value, keys[TAKE].value, watch);
-    if (keys[TAKE].value)
-        return ost_yaml_raise(yaml, keys[TAKE].value, "'take' belongs to the stress of a region");
     OST_TRY(read_component(yaml, &keys[COMPONENT], watch));
     if (watch->kind == OST_WATCH_STRAIN_ENERGY)
         return read_energy(yaml, keys[form].value, keys[COMPONENT].value);

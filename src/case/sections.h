@@ -30,6 +30,10 @@ OstStatus ost_read_sweep(const OstYaml *yaml, const OstYamlNode *node, OstCase *
 enum { OST_EVERY_LOAD_CASE = -1 };
 OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c);
 
+/* Can the envelope that `output` may ask for be made? `cases` is NULL if there are none. */
+OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output,
+                             const OstCase *c);
+
 /* Local. Warns of what is asked for along axes of which one is stated and the others lie anywhere, load cases too. */
 void ost_warn_arbitrary_axes(const OstCase *c);
 

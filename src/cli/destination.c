@@ -6,6 +6,7 @@
 #include "core/write_aside.h"
 #include "formats/serial/formats.h"
 #include "formats/vtu/vtu.h"
+#include "output/envelope.h"
 #include "output/load_case_files.h"
 #include "output/path_files.h"
 #include "output/probe_files.h"
@@ -210,6 +211,9 @@ OstStatus ost_check_case_outputs(const OstCase *c, const char *output)
         ost_path_file_name(output, OST_PATH_SERIES, sizeof path, path);
     ost_load_case_table_name(output, sizeof table, table);
     OST_TRY(ost_check_outputs(c, 2, (const char *const[]){path, table}));
+    ost_envelope_file_name(output, sizeof path, path);
+    if (c->envelope)
+        OST_TRY(ost_check_outputs(c, 1, (const char *const[]){path}));
     for (int k = 0; k < c->load_case_count; k++) {
         ost_load_case_fields_name(output, c->load_cases[k].name, sizeof path, path);
         if (!in_one)

@@ -75,7 +75,7 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
         const int number = ost_path_done(path) + 1;
         char what[64];
         snprintf(what, sizeof what, "path: step %d of %d", number, count);
-        ost_progress_task(ctx, what, (double)(number - 1) / count);
+        ost_progress_task(ctx, what, number - 1, count);
         ost_result_destroy(result);
         status = ost_path_advance(path, fields, result);
         if (status != OST_SUCCESS) {
@@ -91,7 +91,7 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
             ost_log(ctx, OST_LOG_VERBOSE, "path: step %d of %d done, t = %g, largest |u| %.6g", number, count,
                     ost_path_step(path, number - 1)->t, ost_path_step(path, number - 1)->largest_displacement);
     }
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     return status;
 }
 

@@ -41,7 +41,8 @@ static const struct argp sweep_argp = {
     .parser = parse_option,
     .args_doc = "CASE",
     .doc = "Solves a case for several values of some of its numbers, each combined with each, and lists the watched "
-           "quantities: for the keys of --over, else of the case's section 'sweep'.",
+           "quantities, under each load case if there are any: for the keys of --over, else of the case's section "
+           "'sweep'.",
 };
 
 /* --- the values of --over --- */
@@ -182,6 +183,10 @@ static OstStatus sweep_case(OstContext *ctx, void *input)
     sweep.text.setting = common->setting;
     OST_TRY_DONE(ost_case_make(ctx, common->case_path, &sweep.text, &c));
     OST_TRY_DONE(check(c, arguments));
+    if (!sweep.load_case) {
+        sweep.case_count = c->load_case_count;
+        sweep.cases = c->load_cases;
+    }
     if (arguments->over_count == 0) {
         sweep.key = c->sweep;
         sweep.key_count = c->sweep_count;

@@ -12,6 +12,12 @@ typedef struct OstProgress {
     double fraction, first, start;
 } OstProgress;
 
+/* Parts of a task that are done at the same time, from `first` on: since `start`, in as many seconds as foretold. */
+typedef struct OstProgressBatch {
+    int first, count;
+    double start, seconds;
+} OstProgressBatch;
+
 /* A context's fields; only core/ reads them. */
 struct OstContext {
     MPI_Comm comm;
@@ -24,6 +30,9 @@ struct OstContext {
     int warnings;
     double expected;         /* seconds of the whole, as foretold; 0: not known */
     OstProgress task, phase; /* of the whole, of which a name may be missing; and what is done now */
+    int task_done, task_count;
+    double expected_once, expected_each; /* seconds of a batch: what its parts share, and each of them */
+    OstProgressBatch batch;
     char error_text[OST_ERROR_TEXT_SIZE];
     char error_origin[OST_ERROR_ORIGIN_SIZE];
 

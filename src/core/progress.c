@@ -155,11 +155,31 @@ static void write_progress(const OstProgress *of, double now, char *text, size_t
     }
 }
 
+/* What the parts of a batch count for at the most until they are taken up: their files come after. */
+static const double most_of_batch = 0.9;
+
+/* How much of the task is done; never less than before. */
+static void advance(OstContext *ctx)
+{
+    const OstProgressBatch *batch = &ctx->batch;
+    const int taken = ctx->task_done - batch->first;
+    double done = ctx->task_done;
+    if (taken >= 0 && taken < batch->count && batch->seconds > 0.0) {
+        const double share = (ost_seconds() - batch->start) / batch->seconds;
+        const double solved = taken > 0 || share > most_of_batch ? most_of_batch : share;
+        done = batch->first + solved * batch->count + (1.0 - most_of_batch) * taken;
+    }
+    done /= ctx->task_count;
+    ctx->task.fraction = done > ctx->task.fraction ? done : ctx->task.fraction;
+}
+
 /* How far a row of runs is, if this is one, and the phase. */
 static void compose(OstContext *ctx)
 {
     const double now = ost_seconds();
     char whole[160] = "", phase[160] = "", text[sizeof line.text];
+    if (ctx->task.what[0])
+        advance(ctx);
     if (ctx->task.what[0])
         write_progress(&ctx->task, now, whole, sizeof whole);
     if (ctx->phase.what[0] && ctx->phase.fraction >= 0.0)
@@ -186,6 +206,18 @@ static void erase(void)
     line.shown = 0;
 }
 
+void ost_progress_expect_batch(OstContext *ctx, double once, double each)
+{
+    ctx->expected_once = once;
+    ctx->expected_each = each;
+}
+
+void ost_progress_batch(OstContext *ctx, int count)
+{
+    ctx->batch =
+        (OstProgressBatch){ctx->task_done, count, ost_seconds(), ctx->expected_once + ctx->expected_each * count};
+}
+
 void ost_progress(OstContext *ctx, const char *what, double fraction)
 {
     if (!shows(ctx))
@@ -205,19 +237,23 @@ void ost_progress(OstContext *ctx, const char *what, double fraction)
     compose(ctx);
 }
 
-void ost_progress_task(OstContext *ctx, const char *what, double fraction)
+void ost_progress_task(OstContext *ctx, const char *what, int done, int count)
 {
     if (!shows(ctx))
         return;
-    if (fraction < 0.0) {
+    if (count == 0) {
         erase();
         ctx->task.what[0] = 0;
+        ctx->batch.count = 0;
         return;
     }
-    if (!ctx->task.what[0] || fraction < ctx->task.fraction)
-        begin(&ctx->task, what, fraction, ost_seconds());
+    if (!ctx->task.what[0] || done < ctx->task_done) {
+        begin(&ctx->task, what, (double)done / count, ost_seconds());
+        ctx->task.fraction = 0.0;
+    }
     snprintf(ctx->task.what, sizeof ctx->task.what, "%s", what);
-    ctx->task.fraction = fraction;
+    ctx->task_done = done;
+    ctx->task_count = count;
     compose(ctx);
 }
 

@@ -17,4 +17,9 @@ void ost_progress_expect(OstContext *ctx, double seconds);
 /* Local. The phase of the work has changed; of how much of it is done nothing is known yet. */
 void ost_progress_phase(OstContext *ctx, const char *phase);
 
+/* Local. Of parts of a task that are done at the same time (a batch), by what was foretold: seconds of what they share,
+ * and of each of them. From now on the next `count` parts are such a batch; 0: they are not. */
+void ost_progress_expect_batch(OstContext *ctx, double once, double each);
+void ost_progress_batch(OstContext *ctx, int count);
+
 #endif

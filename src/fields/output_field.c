@@ -77,9 +77,28 @@ static const OstOutputField kind[OST_FIELD_COUNT] = {
                                          "the stress m p of the stiff mode; 0 in regions without one"),
 };
 
+#define LABEL(word, centring, text)                                    \
+    {                                                                  \
+        word, centring, OST_VALUES_INT64, 1, "", "none", text, 0, 0, 0 \
+    }
+/* A field of the envelope of load cases, and which case governs there. */
+#define EXTREME(word, centring, unit, text)                                               \
+    {word, centring, OST_VALUES_DOUBLE, 1, "", unit, text " of all load cases", 0, 0, 0}, \
+    {                                                                                     \
+        word "_case", centring, OST_VALUES_INT32, 1, "", "none",                          \
+            "number of the load case, from 1, that has the " text, 0, 0, 0                \
+    }
+
 static const OstOutputField label[] = {
-    {"vertex", OST_ON_NODES, OST_VALUES_INT64, 1, "", "none", "number of the vertex in the mesh file", 0, 0, 0},
-    {"tet", OST_ON_TETS, OST_VALUES_INT64, 1, "", "none", "number of the tet in the mesh file", 0, 0, 0},
+    LABEL("vertex", OST_ON_NODES, "number of the vertex in the mesh file"),
+    LABEL("tet", OST_ON_TETS, "number of the tet in the mesh file"),
+    EXTREME("largest_displacement", OST_ON_NODES, "length", "largest length of the displacement"),
+    EXTREME("largest_von_mises", OST_ON_TETS, force_per_area, "largest von Mises stress of the tet's mean stress"),
+    EXTREME("largest_principal", OST_ON_TETS, force_per_area, "largest principal stress of the tet's mean stress"),
+    EXTREME("least_tsai_wu_load_factor", OST_ON_TETS, none, "least load factor by Tsai and Wu's criterion"),
+    EXTREME("least_hill_load_factor", OST_ON_TETS, none, "least load factor by Hill's criterion"),
+    EXTREME("least_maximum_stress_load_factor", OST_ON_TETS, none,
+            "least load factor by the largest stress along an axis"),
 };
 
 OstOutputField ost_output_field(OstOutputFieldBit field)

@@ -27,8 +27,8 @@ enum { OST_LOAD_FACTORS = 1U << OST_FIELD_TSAI_WU | 1U << OST_FIELD_HILL | 1U <<
 /* Local. What one of OstOutputFieldBit is. */
 OstOutputField ost_output_field(OstOutputFieldBit field);
 
-/* Local. The same by its word, `vertex` and `tet` among them, the labels that every file has. Returns 0 for any other
- * word. */
+/* Local. The same by its word, the labels `vertex` and `tet` that every file has and those of an envelope of load cases
+ * among them. Returns 0 for any other word. */
 int ost_output_field_named(const char *word, OstOutputField *field);
 
 /* Those of the body, whatever acts on it: a file of several results has them once. */

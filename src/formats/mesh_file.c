@@ -192,8 +192,7 @@ static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, 
     OstFileField field = {0};
     OstStatus status = format->read_field(ctx, path, name, chunk, &field);
     if (status == OST_SUCCESS && !field.found)
-        status = OST_RAISE(ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the elements, or on the nodes", path,
-                           name);
+        status = ost_tet_field_raise(ctx, path, name, &field);
     OST_THEN(ost_tet_field_mean(chunk, use, &field));
     OST_THEN(ost_tet_field_add(chunk, path, name, field.width, field.values));
     OST_FREE(field.values);

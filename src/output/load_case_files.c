@@ -295,7 +295,7 @@ static json_t *case_json(OstLoadCaseReport *report)
     return object;
 }
 
-OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCaseReport *reports,
+OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCaseReport *reports, json_t *envelope,
                                     const OstLedgerSummary *summary, const char *output, const char *to)
 {
     OstContext *ctx = scene->ctx;
@@ -305,6 +305,7 @@ OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCas
     int accepted = 1;
     if (ost_rank(ctx) != 0) {
         json_decref(cases);
+        json_decref(envelope);
         return OST_SUCCESS;
     }
     for (int k = 0; k < count; k++) {
@@ -313,11 +314,12 @@ OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCas
         json_array_append_new(cases, case_json(&reports[k]));
     }
     name_whole(scene->c, output, sizeof whole, whole);
-    json_t *document = json_pack(
-        "{s:s, s:s?, s:b, s:o, s:i, s:I, s:I, s:o, s:o, s:o, s:s}", "case", scene->c->path, "title", scene->c->title,
-        "accepted", accepted, "warnings", ost_json_warnings(ctx), "ranks", ost_size(ctx), "vertices",
-        (json_int_t)scene->mesh->global_nodes, "tets", (json_int_t)scene->mesh->global_tets, "cases", cases, "effects",
-        ost_effects_json(&scene->plan.effects), "ledger", ost_ledger_json(ctx, nonzeros, summary), "output", whole);
+    json_t *document =
+        json_pack("{s:s, s:s?, s:b, s:o, s:i, s:I, s:I, s:o, s:o?, s:o, s:o, s:s}", "case", scene->c->path, "title",
+                  scene->c->title, "accepted", accepted, "warnings", ost_json_warnings(ctx), "ranks", ost_size(ctx),
+                  "vertices", (json_int_t)scene->mesh->global_nodes, "tets", (json_int_t)scene->mesh->global_tets,
+                  "cases", cases, "envelope", envelope, "effects", ost_effects_json(&scene->plan.effects), "ledger",
+                  ost_ledger_json(ctx, nonzeros, summary), "output", whole);
     if (!document)
         return OST_RAISE(ctx, OST_CHECK_FAILED, "the summary holds what JSON cannot hold");
     return ost_json_write(ctx, document, to);

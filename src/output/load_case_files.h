@@ -45,8 +45,9 @@ OstStatus ost_load_cases_write(const OstCase *c, int count, const OstLoadCaseRep
 /* Local; rank 0 prints the table and where everything is. */
 void ost_load_cases_print(const OstScene *scene, int count, const OstLoadCaseReport *reports, const char *output);
 
-/* Local; rank 0 writes: everything as JSON. Takes the reports' objects. */
+/* Local; rank 0 writes: everything as JSON. Takes the reports' objects and that of the envelope, which may be NULL. */
 OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCaseReport *reports,
-                                    const OstLedgerSummary *summary, const char *output, const char *to);
+                                    struct json_t *envelope, const OstLedgerSummary *summary, const char *output,
+                                    const char *to);
 
 #endif

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "output/fields_file.h"
+
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -164,7 +166,8 @@ static const OstOutputMark *mark_of(const OstResult *result, char *reasons[OST_M
     return objections->count > 0 ? mark : NULL;
 }
 
-static OstStatus write_file(const OstResult *result, const char *path, const Arrays *arrays)
+OstStatus ost_fields_write(const OstMesh *mesh, const char *path, int count, const OstOutputArray *arrays,
+                           const OstOutputMark *mark)
 {
     static OstStatus (*const write[OST_RESULT_FORMS])(OstContext *, const char *, const OstMesh *, int,
                                                       const OstOutputArray *,
@@ -172,14 +175,19 @@ static OstStatus write_file(const OstResult *result, const char *path, const Arr
                                                                                 [OST_RESULT_HDF] = ost_vtkhdf_write,
                                                                                 [OST_RESULT_VTU] = ost_vtu_write,
                                                                                 [OST_RESULT_PVTU] = ost_pvtu_write};
-    char *reasons[OST_MOST_OBJECTIONS];
-    OstOutputMark mark;
     size_t stem;
     const OstResultForm form = ost_result_form(path, &stem);
     if (form == OST_RESULT_FORMS)
-        return OST_RAISE(result->ctx, OST_INVALID_USAGE,
+        return OST_RAISE(mesh->ctx, OST_INVALID_USAGE,
                          "'%s' does not end with " OST_RESULT_ENDINGS ", which a file of fields must", path);
-    return write[form](result->ctx, path, result->mesh, arrays->count, arrays->array, mark_of(result, reasons, &mark));
+    return write[form](mesh->ctx, path, mesh, count, arrays, mark);
+}
+
+static OstStatus write_file(const OstResult *result, const char *path, const Arrays *arrays)
+{
+    char *reasons[OST_MOST_OBJECTIONS];
+    OstOutputMark mark;
+    return ost_fields_write(result->mesh, path, arrays->count, arrays->array, mark_of(result, reasons, &mark));
 }
 
 /* A file to itself, or a step of one. */

@@ -107,13 +107,18 @@ static const OstStrength *strength_of(const OstResult *result, OstLocal tet)
     return &result->field->material[result->field->tet_region[tet]].strength;
 }
 
-static double load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion)
+double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion, const double stress[6])
 {
     double own[6];
     if (!strength_of(result, tet)->known)
         return OST_MOST_LOAD_FACTOR;
-    ost_result_material_stress(result, tet, result->stress + 6 * (size_t)tet, own);
+    ost_result_material_stress(result, tet, stress, own);
     return ost_load_factor(strength_of(result, tet), criterion, own);
+}
+
+static double load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion)
+{
+    return ost_result_load_factor(result, tet, criterion, result->stress + 6 * (size_t)tet);
 }
 
 static OstStatus principal_direction(const OstResult *result, const double *stress, int which, double *value)

@@ -54,7 +54,7 @@ static int watches_stress(const OstProblem *problem, int is_mean)
     int any = 0;
     for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++) {
         const OstWatch *watch = &problem->scene->c->watches[w];
-        any |= watch->kind == OST_WATCH_STRESS && (watch->region && watch->take == OST_TAKE_MEAN) == is_mean;
+        any |= ost_watch_is_of_stress(watch) && (watch->region && watch->take == OST_TAKE_MEAN) == is_mean;
     }
     return any;
 }

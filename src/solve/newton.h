@@ -44,6 +44,9 @@ void ost_newton_stop_at(OstNewton *newton, double share);
  * is then the last one at rest. */
 OstStatus ost_newton_advance(OstNewton *newton, double to, OstNewtonState *state);
 
+/* Collective. ost_newton_advance; where it fails and linear theory has an odd strain, it asks for the units. */
+OstStatus ost_nonlinear_advance(OstNewton *newton, double linear_strain, double to, OstNewtonState *state);
+
 /* Collective. Copies the state's displacement into a result, with the reports, the residual and the sizes that
  * ost_guard_after needs. */
 OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstResult *result, OstSolvedFor *solved_for);

@@ -4,7 +4,7 @@
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
 #include "solve/linear.h"
-#include "solve/newton.h"
+#include "solve/newton_data.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,6 +23,14 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
 
 /* Solids do not strain so far; numbers in units that do not fit each other often do. */
 static const double odd_strain = 10.0;
+
+static void ask_for_units(double strain, size_t size, char *text)
+{
+    snprintf(text, size,
+             "by linear theory the body strains by up to %.3g %%: do all numbers have the units of one set, as m, N, "
+             "Pa, kg/m3, m/s2, or mm, N, MPa, t/mm3, mm/s2 (1 GPa = 1e9 Pa = 1e3 MPa; 1 kg/m3 = 1e-12 t/mm3)?",
+             100.0 * strain);
+}
 
 OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
 {
@@ -46,13 +54,24 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
         "large rotation: by linear theory, rotations up to %.3g, strains up to %.3g, stiffened by %.3g: off by about "
         "%.2g (asked: %.2g)",
         largest.rotation, largest.strain, as_linear.stiffening, result->newton.linear_error, problem->accuracy);
-    if (largest.strain > odd_strain)
-        ost_warn(
-            problem->ctx,
-            "by linear theory the body strains by up to %.3g %%: do all numbers have the units of one set, as m, N, "
-            "Pa, kg/m3, m/s2, or mm, N, MPa, t/mm3, mm/s2 (1 GPa = 1e9 Pa = 1e3 MPa; 1 kg/m3 = 1e-12 t/mm3)?",
-            100.0 * largest.strain);
+    if (largest.strain > odd_strain) {
+        char question[300];
+        ask_for_units(largest.strain, sizeof question, question);
+        ost_warn(problem->ctx, "%s", question);
+    }
     return OST_SUCCESS;
+}
+
+/* The warning may not have been shown, and what comes of odd units says nothing of them. */
+OstStatus ost_nonlinear_advance(OstNewton *newton, double linear_strain, double to, OstNewtonState *state)
+{
+    const OstStatus status = ost_newton_advance(newton, to, state);
+    char reason[OST_ERROR_TEXT_SIZE], question[300];
+    if (status != OST_NOT_CONVERGED || !(linear_strain > odd_strain))
+        return status;
+    snprintf(reason, sizeof reason, "%s", ost_error_text(newton->ctx));
+    ask_for_units(linear_strain, sizeof question, question);
+    return OST_RAISE(newton->ctx, status, "%s; %s", reason, question);
 }
 
 int ost_nonlinear_may_be_mixed(const OstProblem *problem)
@@ -118,7 +137,7 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
         ost_newton_stop_at(newton, analysis->options.algebraic_fraction * result->answer.relative);
     result->answer = (OstAnswerError){0}; /* that of the linear answer */
     if (status == OST_SUCCESS) {
-        status = ost_newton_advance(newton, 1.0, &state);
+        status = ost_nonlinear_advance(newton, result->newton.linear_strain, 1.0, &state);
         if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
             const OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
             status = filled == OST_SUCCESS ? status : filled;

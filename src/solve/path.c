@@ -210,7 +210,8 @@ static OstStatus run_newton(OstPath *path, double t, OstResult *result, OstSolve
     OST_TRY(ost_newton_create(stiffness, &path->linear.solve, &newton));
     if (loads_turn(path, t))
         path->state.step = 0.0; /* the tangent gives another */
-    OstStatus status = t > path->state.t ? ost_newton_advance(newton, t, &path->state) : OST_SUCCESS;
+    OstStatus status =
+        t > path->state.t ? ost_nonlinear_advance(newton, path->judged.linear_strain, t, &path->state) : OST_SUCCESS;
     int rests = 0;
     OST_THEN(come_to_rest(path, t, &rests));
     if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {

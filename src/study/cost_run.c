@@ -125,7 +125,7 @@ static void announce(const OstCost *cost, const OstCostRun *run, int number)
                  cost->run_count, run->order, run->refinement, run->tolerance, more[0] ? ", " : "", more,
                  about[0] ? ", " : "", about);
     ost_log(cost->ctx, OST_LOG_VERBOSE, "%s", line);
-    ost_progress_task(cost->ctx, line, (double)number / cost->run_count);
+    ost_progress_task(cost->ctx, line, number, cost->run_count);
 }
 
 /* A tolerance is kept to the end; an adaptive run chooses its own. */
@@ -194,7 +194,7 @@ OstStatus ost_cost_run(OstCost *cost)
             snprintf(run->reason, sizeof run->reason, "%s", ost_error_text(ctx));
         }
     }
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     cost->seconds = ost_seconds() - start;
     ost_cost_judge(cost);
     return done > 0 ? OST_SUCCESS : last_failure;

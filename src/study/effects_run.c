@@ -163,12 +163,12 @@ OstStatus ost_effect_study(const OstCase *c, OstEffectStudy *study)
     *study = (OstEffectStudy){.ctx = ctx, .c = c};
     OST_TRY_DONE(solve(&exact, &study->base, &base, &scene));
     for (int v = 0; v < OST_VARIANT_COUNT; v++) {
-        ost_progress_task(ctx, ost_variant_label[v], (double)(v + 1) / (OST_VARIANT_COUNT + 1));
+        ost_progress_task(ctx, ost_variant_label[v], v + 1, OST_VARIANT_COUNT + 1);
         if (ost_variant_applies(study, &scene->plan.effects, (OstVariant)v))
             OST_TRY_DONE(run_variant(study, scene, (OstVariant)v, &base));
     }
 done:
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     OST_FREE(base.node);
     ost_scene_destroy(&scene);
     return status;

@@ -118,7 +118,7 @@ static OstStatus run_all_meshes(OstVerifyReport *report, const OstExact *exact, 
         for (int l = 0; l < levels; l++) {
             snprintf(what, sizeof what, "%.150s: order %d, refined %d times", report->name, verify->step[s].order,
                      verify->step[s].refinement[l]);
-            ost_progress_task(report->ctx, what, (double)l / levels);
+            ost_progress_task(report->ctx, what, l, levels);
             OST_TRY(run_level(report, exact, s, l));
         }
     }
@@ -265,7 +265,7 @@ OstStatus ost_verify_case(OstContext *ctx, const char *path, int settings, const
     OST_TRY_DONE(ost_agree(ctx, conclude(report)));
     report->seconds = ost_seconds() - start;
 done:
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     if (status != OST_SUCCESS)
         ost_verify_report_destroy(&report);
     *out = report;

@@ -228,6 +228,7 @@ static const char *find_why(const OstScene *scene, const OstResult *result, cons
     case OST_WATCH_STRESS:
         return "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
     case OST_WATCH_DISPLACEMENT:
+    case OST_WATCH_LOAD_FACTOR:
         break;
     }
     return "it was not estimated";
@@ -245,6 +246,7 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
         watched->error = energy_error(scene, result);
         return ost_energy_scale(result, &watched->scale);
     case OST_WATCH_STRESS:
+    case OST_WATCH_LOAD_FACTOR:
         OST_TRY(ost_watch_stress(scene, result, watch, watched));
         take_adjoint(scene, result, watch, watched);
         return OST_SUCCESS;
@@ -270,7 +272,7 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     OST_TRY(evaluate(scene, result, watch, watched));
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
-    if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || watch->kind == OST_WATCH_STRESS))
+    if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || ost_watch_is_of_stress(watch)))
         watched->error = NAN;
     watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
     watched->exact = find_exact(watch, watched);
@@ -300,7 +302,7 @@ OstStatus ost_watch_check(const OstScene *scene)
     for (int w = 0; w < c->watch_count; w++) {
         OstWatch placed = c->watches[w]; /* for the warning alone: the solve finds the vertex itself */
         OST_TRY(ost_watch_place(scene->mesh, &placed));
-        if (placed.kind == OST_WATCH_STRESS)
+        if (ost_watch_is_of_stress(&placed))
             OST_TRY(ost_watch_check_stress(scene, &placed));
         if (placed.kind == OST_WATCH_REACTION)
             OST_TRY(check_selection(scene, "the quantity", placed.name, placed.line, &placed.on));

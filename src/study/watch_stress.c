@@ -21,7 +21,7 @@ typedef struct Over {
     OstGlobal tet;      /* the lowest label of those that have it, but for rounding */
     int region;         /* its */
     double place[3];
-    double size; /* the largest von Mises stress */
+    double size; /* the largest von Mises stress; of load factors the least */
 } Over;
 
 static int is_in(const OstWatch *watch, const OstMesh *mesh, OstLocal tet)
@@ -29,9 +29,27 @@ static int is_in(const OstWatch *watch, const OstMesh *mesh, OstLocal tet)
     return ost_is_every_region(watch->region) || strcmp(mesh->regions.name[mesh->tet_region[tet]], watch->region) == 0;
 }
 
+static OstStatus value_at(const OstResult *result, const OstWatch *watch, OstLocal tet, const double stress[6],
+                          double *value)
+{
+    if (watch->kind == OST_WATCH_STRESS)
+        return ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, value);
+    *value = OST_MOST_LOAD_FACTOR;
+    for (int c = 0; c < OST_CRITERIA; c++)
+        if (watch->component == c || watch->component == OST_CRITERIA)
+            *value = fmin(*value, ost_result_load_factor(result, tet, (OstCriterion)c, stress));
+    return OST_SUCCESS;
+}
+
 static OstStatus value_of(const OstResult *result, const OstWatch *watch, OstLocal tet, double *value)
 {
-    return ost_stress_measure(result, tet, result->stress + 6 * (size_t)tet, (OstStressMeasure)watch->component, value);
+    return value_at(result, watch, tet, result->stress + 6 * (size_t)tet, value);
+}
+
+/* A load factor is made of stresses along the material axes. */
+static OstStressMeasure measure_of(const OstWatch *watch)
+{
+    return watch->kind == OST_WATCH_STRESS ? (OstStressMeasure)watch->component : OST_STRESS_MEASURE_11;
 }
 
 /* What the estimate adds to the value: of measures that are linear, as the error's stress varies
@@ -42,7 +60,7 @@ static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstL
     *more = NAN;
     const int is_linear =
         watch->component < (int)OST_STRESS_MEASURE_VON_MISES || watch->component == (int)OST_STRESS_MEASURE_PRESSURE;
-    if (!result->stress_surplus || !is_linear)
+    if (!result->stress_surplus || !is_linear || watch->kind != OST_WATCH_STRESS)
         return OST_SUCCESS;
     for (size_t p = 0; p < 6; p++)
         stress[p] = result->stress[6 * (size_t)tet + p] + result->stress_surplus[6 * (size_t)tet + p];
@@ -145,7 +163,7 @@ static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, 
     *least = INFINITY;
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         if (mesh->tet_region[tet] == region)
-            add_better(result, tet, (OstStressMeasure)watch->component, sums);
+            add_better(result, tet, measure_of(watch), sums);
     for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
         for (int a = 0; a < 4 && mesh->tet_region[tet] == region && status == OST_SUCCESS; a++) {
             const OstLocal node = ost_mesh_nodes_of(mesh, tet)[a];
@@ -154,7 +172,7 @@ static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, 
                 continue;
             for (size_t p = 0; p < 6; p++)
                 stress[p] = sums[7 * (size_t)node + p] / sums[7 * (size_t)node + 6];
-            status = ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, &value);
+            status = value_at(result, watch, tet, stress, &value);
             *least = fmin(*least, sign * value);
         }
     OST_FREE(sums);
@@ -185,10 +203,16 @@ static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWa
     OST_TRY(ost_sum(ctx, 3, sums));
     OST_TRY(ost_min(ctx, 1, &over.best));
     OST_TRY(ost_max(ctx, 1, &over.size));
+    if (watch->kind == OST_WATCH_LOAD_FACTOR)
+        over.size = over.best;
     watched->scale = over.size;
     watched->value = watch->take == OST_TAKE_MEAN ? sums[0] / sums[1] : sign * over.best;
     if (watch->take == OST_TAKE_MEAN) {
         watched->error = sums[2] / sums[1];
+        return OST_SUCCESS;
+    }
+    if (watch->kind == OST_WATCH_LOAD_FACTOR && !(over.best < OST_MOST_LOAD_FACTOR)) {
+        *watched = (OstWatched){.value = INFINITY, .exact = "as nothing fails there"};
         return OST_SUCCESS;
     }
     OST_TRY(ost_agree(ctx, find_place(result, watch, sign, &over)));
@@ -215,14 +239,29 @@ OstStatus ost_watch_stress(const OstScene *scene, const OstResult *result, const
     return OST_SUCCESS;
 }
 
+static OstStatus check_region(const OstScene *scene, const OstWatch *watch)
+{
+    const OstCase *c = scene->c;
+    const OstNames *regions = &scene->mesh->regions;
+    const int everywhere = ost_is_every_region(watch->region);
+    int strong = watch->kind != OST_WATCH_LOAD_FACTOR;
+    if (!everywhere && ost_names_find(regions, watch->region) < 0)
+        return ost_raise_no_region(c, watch->region_place, regions, watch->region);
+    for (int m = 0; m < c->material_count; m++)
+        strong |= c->materials[m].material.strength.known &&
+                  (everywhere || ost_case_material_of(c, watch->region) == &c->materials[m]);
+    return strong ? OST_SUCCESS
+                  : OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                              "%s:%d: '%s' is a load factor to failure of %s%s, of which no material has 'strengths'",
+                              c->path, watch->line, watch->name, everywhere ? "the body" : "region ",
+                              everywhere ? "" : watch->region);
+}
+
 OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch)
 {
-    const OstNames *regions = &scene->mesh->regions;
     OstLocated located;
     if (watch->region)
-        return ost_is_every_region(watch->region) || ost_names_find(regions, watch->region) >= 0
-                   ? OST_SUCCESS
-                   : ost_raise_no_region(scene->c, watch->region_place, regions, watch->region);
+        return check_region(scene, watch);
     OST_TRY(ost_locate(scene->mesh, 1, watch->at, &located));
     return located.label > 0
                ? OST_SUCCESS

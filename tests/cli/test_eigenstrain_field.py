@@ -132,7 +132,7 @@ for eigenstrain, mesh, words in (
         ("{field: two}", "file: bar.msh", "the field 'two' has 2 numbers a tet, expected 1, 3, 6 or 9"),
         ("{per_unit: 1, change: {field: swelling}}", "file: bar.msh", "the field 'swelling' has 3 numbers a tet; a change is one"),
         ("{field: swelling}", "block: {size: [3, 1, 2], divisions: [3, 1, 2]}", "this mesh comes from none"),
-        ("{field: nothing}", "file: pulled.vtkhdf", "there is no field 'nothing' on the cells, or on the points")):
+        ("{field: nothing}", "file: pulled.vtkhdf", "there is no field 'nothing' on the elements, or on the nodes; there is ")):
     write(folder, "case.yaml", case(eigenstrain, mesh))
     for ranks in fewer((1, 3)) if "few" in eigenstrain or "nothing" in eigenstrain else (1,):
         refused = run("check", "case.yaml", ranks=ranks, folder=folder)

@@ -221,9 +221,9 @@ along = answer(text(MUSCLE + ", fibre: {field: displacement}", "file: bent.vtu",
 for name, ranks in (("bent-1.vtkhdf", 1), ("bent-3.vtkhdf", 1), ("bent-1.vtkhdf", 4), ("bent-3.vtkhdf", 2)):
     same(answer(text(MUSCLE + ", fibre: {field: displacement}", "file: " + name, 2), ranks), along,
          f"displacements of {name} as fibres on {ranks} ranks")
-refused(text(MUSCLE + ", fibre: {field: nowhere}", "file: bent-3.vtkhdf"), "there is no field 'nowhere' on the cells, or on the points")
+refused(text(MUSCLE + ", fibre: {field: nowhere}", "file: bent-3.vtkhdf"), "there is no field 'nowhere' on the elements, or on the nodes; there is 'region', 'tet', 'displacement', 'vertex'")
 refused(text(MUSCLE + ", fibre: {field: modulus}", TWO_CUBES), "it has 1 numbers a tet, expected 3")
 refused(text("youngs_modulus: {field: fibre}, poissons_ratio: 0.3", TWO_CUBES), "it has 3 numbers a tet, expected 1")
-refused(text("youngs_modulus: {field: modulos}, poissons_ratio: 0.3", TWO_CUBES), "there is no field 'modulos'")
+refused(text("youngs_modulus: {field: modulos}, poissons_ratio: 0.3", TWO_CUBES), "there is no field 'modulos' on the elements, or on the nodes; there is ")
 refused(text("youngs_modulus: {field: modulus, factor: 1, power: -400}, poissons_ratio: 0.3", TWO_CUBES), "expected one above 0")
 refused(text("youngs_modulus: {field: modulus}, poissons_ratio: 0.3"), "this mesh comes from none")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The estimated error of watched stresses at points, and of least and largest ones, against formulas of thick tubes (Lame, and
+"""The estimated error of watched stresses at points, of least and largest ones, and of load factors to failure, against formulas of thick tubes (Lame, and
 Lekhnitskii for one that is 10 times stiffer around)."""
 import math
 
@@ -11,6 +11,7 @@ element: {{order: {order}}}
 materials:
   - region: all
     {moduli}
+    strengths: {{tension: 4, compression: 90, shear: 90}}
     axes: {{cylindrical: {{origin: [0, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}}}
 constraints:
   - {{on: {{boundary: [bottom, top]}}, slide: [0, 0, 1]}}
@@ -20,6 +21,7 @@ loads: [{{on: {{boundary: inner}}, pressure: 1}}]
 large_rotation: off
 watch:
   hoop: {{stress: {{region: all}}, component: {around}, take: largest}}
+  breaks: {{load_factor: {{region: all}}, criterion: maximum_stress}}
 """
 LAME = ("youngs_modulus: 1000\n    poissons_ratio: 0.3", 1.0, "largest_principal")
 ORTHOTROPIC = ("youngs_modulus: [10, 100, 10]\n    poissons_ratio: {nu12: 0.03, nu23: 0.3, nu13: 0.3}\n    "
@@ -56,6 +58,8 @@ for moduli, k, around in LAME, ORTHOTROPIC:
             check(0.7 < stated / true < 1.4 and left < 0.45 * true, f"{name}: {true} missing, {stated} stated, {left} left")
             missing = stresses(1, k)[1] - watched["hoop"]["value"]
             check(0.5 < watched["hoop"]["error"] / missing < 1.5, f"{name}: {watched['hoop']}, missing {missing}")
+            missing = 4 / stresses(1, k)[1] - watched["breaks"]["value"]
+            check(0.5 < watched["breaks"]["error"] / missing < 1.5, f"{name}: {watched['breaks']}, missing {missing}")
             errors = [watched[key]["error"] for key in watched]
             first = first or errors
             check(all(abs(a - b) < 0.1 * abs(a) + 0.02 * abs(first[0]) for a, b in zip(first, errors, strict=True)),

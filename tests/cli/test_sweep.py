@@ -96,6 +96,39 @@ for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
     check(refused.exit_code == 2 and words in refused.errors, f"{arguments}: {refused.errors}")
 write(folder, "plain.yaml", CASE.split("sweep:")[0] + "cases: [{name: one}]\n")
 check("over what?" in run("sweep", "plain.yaml", folder=folder).errors, "a sweep over nothing")
-named = run("sweep", "plain.yaml", "--over", "loads.0.value.x=1,2", folder=folder)
-check(named.exit_code == 2 and "name it, as in --case one" in named.errors, named.errors)
-check(run("sweep", "plain.yaml", "--case", "one", "--over", "loads.0.value.x=1,2", folder=folder).exit_code == 0, "--case")
+
+# --- load cases: all of them for each value, in company as solve does, with quantities of their own ---
+CASES = CASE.split("sweep:")[0] + """cases:
+  - {name: pull}
+  - {name: bend, loads: [{on: {boundary: xmax}, total_force: [0, 0, 0.1]}], watch: {rise: {displacement: {nearest: [4, 1, 1]}, component: z}}}
+  - {name: twice, combine: {bend: 2}}
+  - {name: moved, constraints: [{on: {boundary: xmin}, displacement: [0.01, 0, 0]}]}
+"""
+NAMES = ["pull", "bend", "twice", "moved"]
+write(folder, "cases.yaml", CASES)
+for ranks in fewer((1, 2)):
+    swept = run("sweep", "cases.yaml", "--over", "materials.all.E1=500,1000", "--csv", "cases.csv", "--json", "cases.json",
+                "--picture", "cases.png", ranks=ranks, folder=folder)
+    check(swept.exit_code == 0 and "8 runs" in swept.output and "load case" in swept.output, swept.output + swept.errors)
+    with open(os.path.join(folder, "cases.csv")) as stream:
+        rows = list(csv.DictReader(stream))
+    report = read_json(folder, "cases.json")
+    check([(row["materials.all.E1"], row["load_case"]) for row in rows] == [(e, name) for e in ("500", "1000") for name in NAMES], rows)
+    check(report["load_cases"] == NAMES and report["watched"] == ["end", "rise"], report)
+    run("solve", "cases.yaml", "--set", "materials.all.E1=500", "--json", "solved.json", ranks=ranks, folder=folder)
+    for one, solved in zip(report["runs"], read_json(folder, "solved.json")["cases"]):
+        check(one["load_case"] == solved["load_case"] and one["iterations"] == solved["solver"]["iterations"], f"{one}, {solved}")
+        for name, watched in one["watched"].items():
+            alone = solved["watched"].get(name, {"value": None})["value"]
+            check(watched == alone or abs(watched - alone) < 1e-9 * abs(alone), f"{one}, {solved['watched']}")
+    check(rows[0]["rise"] == "" and float(rows[1]["rise"]) > 0, rows)
+
+one = run("sweep", "cases.yaml", "--case", "bend", "--over", "loads.0.value.x=1,2", "--json", "bar.json", folder=folder)
+report = read_json(folder, "bar.json")
+check(one.exit_code == 0 and len(report["runs"]) == 2 and report["load_cases"] == [], one.errors)
+failed = run("sweep", "cases.yaml", "--over", "materials.0.poissons_ratio=0.3,0.6", "--json", "bar.json", folder=folder)
+runs = read_json(folder, "bar.json")["runs"]
+check(failed.exit_code == 1 and [one["answered"] for one in runs] == 4 * [True] + 4 * [False], failed.errors)
+check("run 5 of 8, load case pull has no answer" in failed.errors and "4 of 8 runs have no answer" in failed.errors, failed.errors)
+renamed = run("sweep", "cases.yaml", "--over", "cases.0.name=pull,push", folder=folder)
+check("cannot change which load cases there are" in renamed.errors, renamed.errors)

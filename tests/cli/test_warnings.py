@@ -104,6 +104,8 @@ def odd_units(folder):
         write(folder, "units.yaml", text)
         ended = run("solve", "units.yaml", "--output", "units.vtkhdf", folder=folder)
         check(("the units of one set" in ended.errors) == warned, f"{pressure}: {ended.errors}")
+        ended = run("solve", "units.yaml", "-q", "--output", "units.vtkhdf", folder=folder)  # the failure itself asks
+        check(("the units of one set" in ended.errors) == warned == (ended.exit_code == 1), f"{pressure}: {ended.errors}")
 
 
 def radians(folder):

@@ -180,6 +180,36 @@ watch: {mean: {stress: {region: all}, component: xx}}
     check(near(report["watched"]["mean"]["value"], 1.0), f"the mean stress is not 1: {report['watched']}")
 
 
+def load_factors_are_those_of_the_summary():
+    """The bar, pulled by 2 over a section of 1, of a material that tears at 5; half of it of one without strengths."""
+    strong = CASE[:CASE.index("watch:")].replace("0.3}]", "0.3, strengths: {tension: 5, compression: 8}}]") + """watch:
+  tsai_wu: {load_factor: {region: all}, criterion: tsai_wu}
+  hill: {load_factor: {region: all}, criterion: hill}
+  maximum_stress: {load_factor: {region: all}, criterion: maximum_stress}
+  breaks: {load_factor: {region: all}}
+"""
+    for ranks in (1, 2):
+        finished, report, _ = solve(strong.replace("[2, 0, 0]", "[0, 0.2, 0]"), ranks=ranks)
+        check(finished.exit_code == 0, finished.errors)
+        watched = report["watched"]
+        for criterion, least in report["strength"].items():
+            check(near(watched[criterion]["value"], least["load_factor"]), f"{criterion}: {watched[criterion]}, {least}")
+            check(watched[criterion]["place"] == least["place"], f"{criterion}: {watched[criterion]}, {least}")
+        check(near(watched["breaks"]["value"], min(watched[name]["value"] for name in report["strength"])), f"{watched}")
+        check(watched["breaks"]["error"] < 0, f"a finer mesh has larger stresses: {watched['breaks']}")
+    finished, report, _ = solve(strong + "large_rotation: off\noutput: {fields: [displacement]}\n")
+    check(all(near(one["value"], 2.5) for one in report["watched"].values()), f"5 over 2: {report['watched']}")
+    finished, report, _ = solve(strong.replace("[2, 0, 0]", "[0, 0, 0]"))
+    check("inf, as nothing fails there" in finished.output and report["watched"]["breaks"]["value"] is None, finished.output)
+    refused("no strengths", CASE + "  breaks: {load_factor: {region: all}}\n",
+            ["case.yaml:14", "'breaks' is a load factor to failure of the body, of which no material has 'strengths'"])
+    refused("no region", strong + "  one: {load_factor: {region: wod}}\n", ["no region 'wod'"])
+    refused("a criterion", strong + "  one: {load_factor: {region: all}, criterion: tsai}\n", ["tsai_wu"])
+    refused("a component", strong + "  one: {load_factor: {region: all}, component: x}\n", ["it may have a 'criterion'"])
+    refused("a criterion of a stress", strong + "  one: {stress: {region: all}, component: xx, criterion: hill}\n", ["'criterion' belongs to a load factor"])
+    refused("an accuracy", strong.replace("relative_residual: 1e-10", "relative_error: 0.01, of: breaks"), ["'breaks' is a load factor, for whose error"])
+
+
 def nothing_watched_is_nothing_in_json():
     _, report, _ = solve(CASE[:CASE.index("watch:")])
     check(report["watched"] == {}, f"nothing is watched: {report['watched']}")
@@ -217,6 +247,7 @@ def main():
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()
     means_are_by_the_true_volume_of_curved_tets()
+    load_factors_are_those_of_the_summary()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
             ["case.yaml:", "no boundary 'xmim'", "did you mean 'xmin'?"])

@@ -132,6 +132,8 @@ static void fields_are_read_tet_by_tet(void **state)
         assert_success(ost_mesh_file_read_field(ctx, path, "direction", OST_FIELD_OF_DIRECTIONS, chunk));
         assert_int_equal(ost_mesh_file_read_field(ctx, path, "modulos", OST_FIELD_OF_NUMBERS, chunk),
                          OST_INVALID_INPUT);
+        assert_non_null(strstr(ost_error_text(ctx), "'modulus'"));
+        assert_non_null(strstr(ost_error_text(ctx), "'density'"));
         assert_int_equal(chunk->fields.count, 3);
         assert_int_equal(ost_tet_fields_width(&chunk->fields), 5);
         for (OstLocal t = 0; t < chunk->tet_count; t++) {

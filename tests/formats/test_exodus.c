@@ -95,6 +95,7 @@ static void fields_are_read_tet_by_tet(void **state)
         assert_int_equal(found.count, files[f].steps > 1 ? 4 : 0);
         assert_int_equal(ost_mesh_file_read_field(ctx, path, "modulos", OST_FIELD_OF_NUMBERS, chunk),
                          OST_INVALID_INPUT);
+        assert_non_null(strstr(ost_error_text(ctx), "'density'"));
         const int width = ost_tet_fields_width(&chunk->fields);
         assert_int_equal(width, files[f].by_netcdf ? 8 : 4);
         for (OstLocal t = 0; t < chunk->tet_count; t++) {

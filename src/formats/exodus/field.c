@@ -44,6 +44,21 @@ static OstStatus find_variable(const OstNetcdf *nc, int on_nodes, const char *na
     return OST_SUCCESS;
 }
 
+static OstStatus note_variables(Field *field)
+{
+    const OstNetcdf *nc = &field->exodus.nc;
+    for (int on_nodes = 0; on_nodes < 2; on_nodes++) {
+        OstLocal count = 0;
+        OST_TRY(ost_netcdf_dimension(nc, on_nodes ? "num_nod_var" : "num_elem_var", &count));
+        for (OstLocal v = 0; v < count; v++) {
+            char text[OST_NETCDF_NAME];
+            OST_TRY(ost_netcdf_text(nc, on_nodes ? "name_nod_var" : "name_elem_var", v, text));
+            ost_tet_field_note(field->out, text, strlen(text));
+        }
+    }
+    return OST_SUCCESS;
+}
+
 /* One variable of that name, or three. */
 static OstStatus find_field(Field *field, int on_nodes)
 {
@@ -160,7 +175,7 @@ static OstStatus read_all(Field *field)
     if (!field->out->found)
         OST_TRY(find_field(field, 1));
     if (!field->out->found)
-        return OST_SUCCESS;
+        return note_variables(field);
     OST_TRY(ost_netcdf_dimension(&field->exodus.nc, "time_step", &steps));
     if (steps > 1 && !field->exodus.nc.dry && !field->out->values)
         ost_warn(field->chunk->ctx, "%s: the field '%s' has %d time steps; the last is taken", field->exodus.nc.path,

@@ -19,7 +19,6 @@ typedef struct Field {
     OstFileField *out;
     OstLabelIndex rows; /* of tets, or of nodes */
     int step, later;    /* its step; are there further ones? */
-    char others[256];   /* names of fields that were not asked for, as far as there is room */
 } Field;
 
 enum { STEP, COMPONENTS, ELEMENTS, INTEGERS, MOST_COMPONENTS = 9 };
@@ -34,17 +33,6 @@ static OstStatus skip_lines(OstMshCursor *cursor, const char *what)
     return OST_SUCCESS;
 }
 
-/* Keeps the name of a field that was not asked for, as far as there is room. */
-static void note_other(Field *field, OstMshText text)
-{
-    char quoted[80];
-    const size_t used = strlen(field->others);
-    snprintf(quoted, sizeof quoted, "'%.*s'", (int)text.length, text.start);
-    if (!strstr(field->others, quoted) && used + strlen(quoted) + 3 < sizeof field->others)
-        snprintf(field->others + used, sizeof field->others - used, "%s%s", used ? ", " : "", quoted);
-}
-
-/* The strings; is it the field's name? */
 static OstStatus read_name(Field *field, int *wanted)
 {
     OstMshCursor *cursor = &field->msh.cursor;
@@ -60,7 +48,7 @@ static OstStatus read_name(Field *field, int *wanted)
         if (i == 0)
             *wanted = (size_t)text.length == length && memcmp(text.start, field->name, length) == 0;
         if (i == 0 && !*wanted)
-            note_other(field, text);
+            ost_tet_field_note(field->out, text.start, (size_t)text.length);
     }
     return OST_SUCCESS;
 }
@@ -191,10 +179,6 @@ OstStatus ost_msh_read_field(OstContext *ctx, const char *path, const char *name
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(ost_msh_open(ctx, path, &field.msh.cursor));
     OST_TRY_DONE(read_sections(&field));
-    if (!out->found && field.others[0])
-        status = OST_RAISE(ctx, OST_INVALID_INPUT,
-                           "%s: there is no field '%s' on the elements, or on the nodes; there is %s", path, name,
-                           field.others);
     if (field.later)
         ost_warn(ctx, "%s: the field '%s' has several time steps; step %d, the first, is taken", path, name,
                  field.step);

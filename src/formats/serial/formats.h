@@ -30,8 +30,13 @@ OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char
 /* A field as the reader of a serial format finds it, on the tets or the nodes of a chunk. */
 typedef struct OstFileField {
     int found, on_nodes, width;
-    double *values; /* tets or nodes × width */
+    double *values;   /* tets or nodes × width */
+    char others[256]; /* names of fields that were not asked for, as far as there is room */
 } OstFileField;
+
+/* Local. Keeps such a name, of so many letters. Raises OST_INVALID_INPUT with the names there are. */
+void ost_tet_field_note(OstFileField *field, const char *name, size_t length);
+OstStatus ost_tet_field_raise(OstContext *ctx, const char *path, const char *name, const OstFileField *field);
 
 /* Local. A field on nodes becomes one on tets: the mean of their vertices. */
 OstStatus ost_tet_field_mean(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field);

@@ -3,7 +3,23 @@
 #include "core/memory.h"
 #include "formats/serial/formats.h"
 
+#include <stdio.h>
 #include <string.h>
+
+void ost_tet_field_note(OstFileField *field, const char *name, size_t length)
+{
+    char quoted[80];
+    const size_t used = strlen(field->others);
+    snprintf(quoted, sizeof quoted, "'%.*s'", (int)(length < sizeof quoted - 3 ? length : sizeof quoted - 3), name);
+    if (!strstr(field->others, quoted) && used + strlen(quoted) + 3 < sizeof field->others)
+        snprintf(field->others + used, sizeof field->others - used, "%s%s", used ? ", " : "", quoted);
+}
+
+OstStatus ost_tet_field_raise(OstContext *ctx, const char *path, const char *name, const OstFileField *field)
+{
+    return OST_RAISE(ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the elements, or on the nodes; there is %s",
+                     path, name, field->others[0] ? field->others : "none");
+}
 
 OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width)
 {

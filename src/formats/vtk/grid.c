@@ -86,8 +86,12 @@ const char *ost_vtk_region_name(int number)
 
 int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components)
 {
-    if (grid->wanted)
-        return strcmp(grid->wanted, name) == 0;
+    if (grid->wanted && strcmp(grid->wanted, name) == 0)
+        return 1;
+    if (grid->wanted) {
+        ost_tet_field_note(grid->field, name, strlen(name));
+        return 0;
+    }
     for (int n = 0; n < REGION_NAMES; n++)
         if (strcasecmp(region_names[n], name) == 0)
             return 1;
@@ -288,9 +292,9 @@ static OstStatus read_text_or_xml(OstVtkGrid *grid)
     return status;
 }
 
-static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstVtkGrid *grid)
+static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstFileField *field, OstVtkGrid *grid)
 {
-    *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted};
+    *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted, .field = field};
     OST_TRY(has_ending(path, ".vtkhdf") || has_ending(path, ".hdf") ? ost_vtk_hdf_grid(grid) : read_text_or_xml(grid));
     return check_grid(grid);
 }
@@ -299,7 +303,7 @@ OstStatus ost_vtk_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
     OstVtkGrid grid;
     OstCells cells = {0};
-    OstStatus status = read_grid(ctx, path, NULL, &grid);
+    OstStatus status = read_grid(ctx, path, NULL, NULL, &grid);
     OST_THEN(ost_vtk_join_pieces(&grid));
     OST_THEN(ost_cells_open(ctx, path, &cells));
     OST_THEN(add_all(&grid, &cells));
@@ -343,7 +347,7 @@ OstStatus ost_vtk_read_field(OstContext *ctx, const char *path, const char *name
                              OstFileField *field)
 {
     OstVtkGrid grid;
-    OstStatus status = read_grid(ctx, path, name, &grid);
+    OstStatus status = read_grid(ctx, path, name, field, &grid);
     OST_THEN(take_field(&grid, chunk, field));
     ost_vtk_clear(&grid);
     return status;

@@ -29,8 +29,9 @@ typedef struct OstVtkName {
 typedef struct OstVtkGrid {
     OstContext *ctx;
     const char *path;
-    const char *wanted; /* a field's name; NULL: arrays that may say which region a cell is in */
-    int by_meshio;      /* it wrote the file, and may have put sets into an array */
+    const char *wanted;  /* a field's name; NULL: arrays that may say which region a cell is in */
+    OstFileField *field; /* of that name; or NULL */
+    int by_meshio;       /* it wrote the file, and may have put sets into an array */
     OstGlobal points, cells;
     double *coordinates;
     OstGlobal *end; /* of each cell in the connectivity */

@@ -130,6 +130,8 @@ static OstStatus read_all(const OstHdf5 *h5, OstVtkGrid *grid)
     OST_THEN(read_cells(h5, grid, &pieces));
     for (int on_points = 0; on_points < 2 && grid->wanted; on_points++)
         OST_THEN(take_array(h5, grid, on_points, grid->wanted));
+    if (grid->field && grid->array_count == 0)
+        ost_vtkhdf_note_fields(h5, grid->field);
     for (int n = 0; ost_vtk_region_name(n) && !grid->wanted; n++)
         OST_THEN(take_array(h5, grid, 0, ost_vtk_region_name(n)));
     for (int n = 1; ost_point_labels[n] && !grid->wanted && pieces.count > 1; n++)

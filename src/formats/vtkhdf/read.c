@@ -425,6 +425,24 @@ static OstStatus read_of_points(Reader *reader, const Sought *sought, OstFileFie
     return read_of_step(&reader->h5, sought, field, reader->points.total, first, (OstLocal)(last + 1 - first));
 }
 
+void ost_vtkhdf_note_fields(const OstHdf5 *h5, OstFileField *field)
+{
+    for (int on_nodes = 0; on_nodes < 2; on_nodes++) {
+        char group[LONGEST_NAME];
+        H5G_info_t info = {0};
+        snprintf(group, sizeof group, "/VTKHDF/%s", data_group[on_nodes]);
+        if (!ost_hdf5_has(h5, group) || H5Gget_info_by_name(h5->file, group, &info, H5P_DEFAULT) < 0)
+            continue;
+        for (hsize_t n = 0; n < info.nlinks; n++) {
+            char name[OST_LONGEST_FIELD];
+            const ssize_t length =
+                H5Lget_name_by_idx(h5->file, group, H5_INDEX_NAME, H5_ITER_INC, n, name, sizeof name, H5P_DEFAULT);
+            if (length > 0 && length < (ssize_t)sizeof name)
+                ost_tet_field_note(field, name, (size_t)length);
+        }
+    }
+}
+
 static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, OstMeshChunk *chunk)
 {
     const OstHdf5 *h5 = &reader->h5;
@@ -438,9 +456,10 @@ static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, O
         field.found = ost_hdf5_has(h5, name);
     }
     field.on_nodes--;
-    if (!field.found)
-        return OST_RAISE(chunk->ctx, OST_INVALID_INPUT, "%s: there is no field '%s' on the cells, or on the points",
-                         h5->path, word);
+    if (!field.found) {
+        ost_vtkhdf_note_fields(h5, &field);
+        return ost_tet_field_raise(chunk->ctx, h5->path, word, &field);
+    }
     OST_TRY(ost_hdf5_shape(h5, name, &rows, &field.width));
     OST_TRY(ost_tet_field_check(chunk->ctx, h5->path, word, field.width));
     OstStatus status = field.on_nodes

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/progress.h"
 #include "core/together/together.h"
 #include "problem/cases/load_case.h"
 #include "problem/scene_data.h"
@@ -151,6 +152,12 @@ static void go_on(OstLoadCases *cases)
                 cases->next = k;
 }
 
+/* Could it be solved with the next one? */
+static int is_alike(const OstLoadCases *cases, int k)
+{
+    return !cases->is_done[k] && cases->group[k] == cases->group[cases->next] && !cases->ahead[k].is_tried;
+}
+
 /* The next case and those that follow it with the same stiffness, each with the fields that are to be expected: its
  * own, unless the next one is asked for others than those. */
 static int choose_company(const OstLoadCases *cases, int most, unsigned fields, OstCompanion *companion, int *number)
@@ -158,7 +165,7 @@ static int choose_company(const OstLoadCases *cases, int most, unsigned fields, 
     const int own = fields == ost_scene_result_fields(cases->scene[cases->next]);
     int count = 0;
     for (int k = cases->next; k < cases->count && count < most; k++) {
-        if (cases->is_done[k] || cases->group[k] != cases->group[cases->next] || cases->ahead[k].is_tried)
+        if (!is_alike(cases, k))
             continue;
         number[count] = k;
         companion[count++] = (OstCompanion){
@@ -186,17 +193,29 @@ static OstStatus solve_in_company(OstLoadCases *cases, unsigned fields)
     return OST_SUCCESS;
 }
 
+/* Solves the next case ahead, with others, where that pays. */
+static OstStatus solve_ahead(OstLoadCases *cases, unsigned fields)
+{
+    int count = 0;
+    for (int k = 0; k < cases->count && count < OST_MOST_TOGETHER; k++)
+        count += is_alike(cases, k);
+    ost_progress_batch(cases->ctx, count);
+    OstStatus status = make_problem(cases);
+    OST_THEN(ost_analysis_make_common(cases->analysis, fields));
+    if (status == OST_SUCCESS && ost_company_suits(cases->analysis))
+        status = solve_in_company(cases, fields);
+    if (!cases->ahead[cases->next].result)
+        ost_progress_batch(cases->ctx, 0);
+    return status;
+}
+
 OstStatus ost_load_cases_solve(OstLoadCases *cases, unsigned fields, OstResult **result)
 {
     OstCompanion *ahead = &cases->ahead[cases->next];
     OstStatus status = OST_SUCCESS;
     *result = NULL;
-    if (!ahead->is_tried && !cases->alone && cases->left >= OST_FEWEST_COLUMNS) {
-        status = make_problem(cases);
-        OST_THEN(ost_analysis_make_common(cases->analysis, fields));
-        if (status == OST_SUCCESS && ost_company_suits(cases->analysis))
-            status = solve_in_company(cases, fields);
-    }
+    if (!ahead->is_tried && !cases->alone && cases->left >= OST_FEWEST_COLUMNS)
+        status = solve_ahead(cases, fields);
     if (ahead->result && ahead->fields == fields) {
         *result = ahead->result;
         ahead->result = NULL;

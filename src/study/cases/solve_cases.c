@@ -4,10 +4,13 @@
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/progress.h"
 #include "orthostat/load_cases.h"
+#include "output/envelope.h"
 #include "output/load_case_files.h"
 #include "output/probe_files.h"
 #include "problem/scene_data.h"
+#include "study/forecast/forecast.h"
 #include "study/watch.h"
 
 #include <stdio.h>
@@ -22,6 +25,7 @@ typedef struct Run {
     const OstSolveCases *how;
     OstScene *scene;
     OstStepsFile *steps;       /* NULL: a file for each */
+    OstEnvelope *envelope;     /* NULL: none is asked for */
     OstLoadCaseReport *report; /* of each */
     OstStatus failed;          /* how the first that failed did */
 } Run;
@@ -54,6 +58,8 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
         OST_TRY(ost_result_write_step(result, scene->c->output_fields, run->steps, number, report->name));
     else if (file)
         OST_TRY(ost_result_write(result, scene->c->output_fields, file));
+    if (is_answer && run->envelope)
+        OST_TRY(ost_envelope_take(run->envelope, number - 1, result));
     if (file && scene->c->probe_count > 0)
         OST_TRY(ost_probe_write(scene, result, own));
     OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
@@ -90,7 +96,7 @@ static void show_progress(const Run *run, int done, int number)
     char what[128];
     snprintf(what, sizeof what, "load case %s, %d of %d", run->c->load_cases[number].name, done + 1,
              run->c->load_case_count);
-    ost_progress_task(run->ctx, what, (double)done / run->c->load_case_count);
+    ost_progress_task(run->ctx, what, done, run->c->load_case_count);
     ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
 }
 
@@ -171,15 +177,20 @@ static OstStatus tell(Run *run)
     const OstSolveCases *how = run->how;
     OstLedgerSummary ledger;
     OST_TRY(ost_agree(run->ctx, ost_load_cases_write(run->c, count, run->report, how->output)));
+    if (run->envelope)
+        OST_TRY(ost_envelope_write(run->envelope, how->output));
     OST_TRY(ost_ledger_summarise(run->ctx, &ledger));
     if (prints(run)) {
         ost_load_cases_print(run->scene, count, run->report, how->output);
+        if (run->envelope)
+            ost_envelope_print(run->envelope);
         ost_ledger_print(run->scene, &ledger);
     }
     if (!how->json)
         return OST_SUCCESS;
-    return ost_agree(run->ctx,
-                     ost_load_cases_write_json(run->scene, count, run->report, &ledger, how->output, how->json));
+    return ost_agree(run->ctx, ost_load_cases_write_json(run->scene, count, run->report,
+                                                         run->envelope ? ost_envelope_json(run->envelope) : NULL,
+                                                         &ledger, how->output, how->json));
 }
 
 /* The failures of all, in one text. */
@@ -201,6 +212,26 @@ static OstStatus raise_failures(const Run *run)
                      run->how->keeps ? "" : ", and nothing of them was written", text);
 }
 
+/* One that is solved with others takes about this share of what it takes alone: 0.28 of linear tets, 0.3 of quadratic
+ * ones (six cases of a beam of 265,000 unknowns). */
+static const double share_in_company = 0.3;
+
+/* For those who wait. */
+static OstStatus foretell(const OstScene *scene)
+{
+    OstRates rates;
+    OstForecast forecast;
+    OST_TRY(ost_rates_load(scene->ctx, &rates));
+    ost_forecast_make(scene->c, &scene->plan, &rates, ost_size(scene->ctx), &forecast);
+    const double alone =
+        forecast.seconds[OST_STAGE_SOLVE] + forecast.seconds[OST_STAGE_ESTIMATE] + forecast.seconds[OST_STAGE_REST];
+    ost_progress_expect_batch(scene->ctx,
+                              forecast.seconds[OST_STAGE_ASSEMBLY] + forecast.seconds[OST_STAGE_SETUP] +
+                                  (1.0 - share_in_company) * alone,
+                              share_in_company * alone);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
 {
     Run run = {.ctx = c->ctx, .c = c, .how = how};
@@ -210,14 +241,18 @@ OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
         run.report[k].name = c->load_cases[k].name;
     }
     OST_THEN(ost_scene_create(c, &run.scene));
+    OST_THEN(foretell(run.scene));
+    if (c->envelope)
+        OST_THEN(ost_envelope_create(c, ost_scene_mesh(run.scene), &run.envelope));
     OST_THEN(solve_all(&run));
-    ost_progress_task(c->ctx, "", -1.0);
+    ost_progress_task(c->ctx, "", 0, 0);
     OST_THEN(tell(&run));
     if (status == OST_SUCCESS && run.failed != OST_SUCCESS)
         status = raise_failures(&run);
     for (int k = 0; run.report && k < c->load_case_count; k++)
         ost_load_case_report_release(&run.report[k]);
     OST_FREE(run.report);
+    ost_envelope_destroy(&run.envelope);
     ost_scene_destroy(&run.scene);
     return status;
 }

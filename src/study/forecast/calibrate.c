@@ -216,7 +216,7 @@ static OstStatus run_all(OstContext *ctx, Body *body, OstCalibration *calibratio
 {
     const int ranks = ost_size(ctx);
     for (int b = 0; b < OST_CALIBRATION_RUNS; b++) {
-        ost_progress_task(ctx, bodies[b].name, (double)b / OST_CALIBRATION_RUNS);
+        ost_progress_task(ctx, bodies[b].name, b, OST_CALIBRATION_RUNS);
         OST_TRY(read_body(ctx, b, &body[b].c));
         OST_TRY(run_body(b, &body[b], &calibration->run[b]));
         calibration->count = b + 1;
@@ -241,7 +241,7 @@ OstStatus ost_calibrate(OstContext *ctx, const char *version, OstCalibration *ca
         ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = run_all(ctx, body, calibration);
     ost_log_set_level(ctx, level);
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     for (int b = 0; b < OST_CALIBRATION_RUNS; b++)
         ost_case_destroy(&body[b].c);
     OST_FREE(body);

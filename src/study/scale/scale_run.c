@@ -137,7 +137,7 @@ static void announce(const OstScale *scale, const OstScaleRun *run, int number)
     snprintf(line, sizeof line, "run %d of %d: %d ranks, %.3g unknowns", number + 1, scale->run_count, run->ranks,
              run->target > 0.0 ? run->target : scale->own_unknowns);
     ost_log(scale->ctx, OST_LOG_VERBOSE, "%s", line);
-    ost_progress_task(scale->ctx, line, (double)number / scale->run_count);
+    ost_progress_task(scale->ctx, line, number, scale->run_count);
 }
 
 static OstStatus decide(OstScale *scale, double start, OstScaleRun *run, int *yes)
@@ -174,7 +174,7 @@ OstStatus ost_scale_run(OstScale *scale)
             last_failure = OST_RAISE(ctx, run->status, "%s", run->reason);
         done += run->state == OST_SCALE_DONE;
     }
-    ost_progress_task(ctx, "", -1.0);
+    ost_progress_task(ctx, "", 0, 0);
     scale->here.memory = ost_scale_memory_rate(scale);
     scale->seconds = ost_seconds() - start;
     if (done == 0 && last_failure == OST_SUCCESS && scale->run_count > 0)

@@ -30,6 +30,8 @@ void ost_sweep_print(const OstSweep *sweep)
         const size_t length = strlen(key);
         printf("  %18s", length > WIDEST_KEY ? key + length - WIDEST_KEY : key);
     }
+    if (sweep->case_count > 0)
+        printf("  %-16s", "load case");
     printf(" %14s %14s %9s %7s", "largest |u|", "strain energy", "off by", "Newton");
     for (int w = 0; w < sweep->watch_count; w++)
         printf(" %14.14s", sweep->watch[w]);
@@ -38,6 +40,8 @@ void ost_sweep_print(const OstSweep *sweep)
         const OstSweepRun *run = &sweep->run[r];
         for (int k = 0; k < sweep->key_count; k++)
             printf("  %18.18s", run->value[k]);
+        if (run->load_case)
+            printf("  %-16s", run->load_case);
         if (run->failure) {
             printf("  no answer: %.120s\n", run->failure);
             continue;
@@ -49,7 +53,10 @@ void ost_sweep_print(const OstSweep *sweep)
             printf(" %9s", "-");
         printf(" %7d", run->newton_iterations);
         for (int w = 0; w < sweep->watch_count; w++)
-            printf(" %14.8g", run->watched[w]);
+            if (isfinite(run->watched[w]))
+                printf(" %14.8g", run->watched[w]);
+            else
+                printf(" %14s", "-");
         puts("");
     }
 }
@@ -61,6 +68,8 @@ static OstStatus write_rows(FILE *file, const void *content)
         ost_csv_text(file, sweep->key[k].key);
         fputc(',', file);
     }
+    if (sweep->case_count > 0)
+        fputs("load_case,", file);
     fputs("answered,largest_displacement,strain_energy,relative_error,unknowns,newton_iterations,iterations,seconds",
           file);
     for (int w = 0; w < sweep->watch_count; w++) {
@@ -78,6 +87,8 @@ static OstStatus write_rows(FILE *file, const void *content)
                 ost_csv_text(file, run->value[k]);
             fputc(',', file);
         }
+        if (run->load_case)
+            fprintf(file, "%s,", run->load_case);
         if (run->failure) {
             fputs("0,,,,,,", file);
             fprintf(file, ",%.6g", run->seconds);
@@ -110,8 +121,8 @@ static json_t *run_json(const OstSweep *sweep, const OstSweepRun *run)
     }
     for (int w = 0; w < sweep->watch_count; w++)
         json_object_set_new(watched, sweep->watch[w], ost_json_number(run->failure ? NAN : run->watched[w]));
-    return json_pack("{s:o, s:b, s:s?, s:o, s:o, s:o, s:I, s:i, s:i, s:f, s:o}", "values", values, "answered",
-                     run->failure == NULL, "failure", run->failure, "largest_displacement",
+    return json_pack("{s:o, s:s?, s:b, s:s?, s:o, s:o, s:o, s:I, s:i, s:i, s:f, s:o}", "values", values, "load_case",
+                     run->load_case, "answered", run->failure == NULL, "failure", run->failure, "largest_displacement",
                      run->failure ? json_null() : ost_json_number(run->largest_displacement), "strain_energy",
                      run->failure ? json_null() : ost_json_number(run->strain_energy), "relative_error",
                      run->failure ? json_null() : ost_json_number(run->relative_error), "unknowns",
@@ -123,15 +134,17 @@ OstStatus ost_sweep_write_json(const OstSweep *sweep, const char *to)
 {
     if (ost_rank(sweep->ctx) != 0)
         return OST_SUCCESS;
-    json_t *runs = json_array(), *keys = json_array(), *watches = json_array();
+    json_t *runs = json_array(), *keys = json_array(), *cases = json_array(), *watches = json_array();
     for (int k = 0; k < sweep->key_count; k++)
         json_array_append_new(keys, ost_json_text(sweep->key[k].key));
+    for (int k = 0; k < sweep->case_count; k++)
+        json_array_append_new(cases, ost_json_text(sweep->cases[k].name));
     for (int w = 0; w < sweep->watch_count; w++)
         json_array_append_new(watches, ost_json_text(sweep->watch[w]));
     for (int r = 0; r < sweep->run_count; r++)
         json_array_append_new(runs, run_json(sweep, &sweep->run[r]));
-    json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "case", sweep->path, "keys", keys, "watched", watches,
-                                 "warnings", ost_json_warnings(sweep->ctx), "runs", runs);
+    json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "case", sweep->path, "keys", keys, "load_cases",
+                                 cases, "watched", watches, "warnings", ost_json_warnings(sweep->ctx), "runs", runs);
     return document ? ost_json_write(sweep->ctx, document, to)
                     : OST_RAISE(sweep->ctx, OST_LIBRARY_FAILED, "%s: the runs cannot be written as JSON", sweep->path);
 }

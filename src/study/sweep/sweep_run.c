@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "orthostat/load_cases.h"
 #include "study/watch.h"
 
 #include <math.h>
@@ -53,15 +54,26 @@ static OstStatus read_case(const OstSweep *sweep, const OstSweepRun *run, OstCas
     return status;
 }
 
+/* Which column a quantity has; watch_count if none. */
+static int find_watch(const OstSweep *sweep, const char *name)
+{
+    int w = 0;
+    while (w < sweep->watch_count && strcmp(sweep->watch[w], name) != 0)
+        w++;
+    return w;
+}
+
 static OstStatus note(const OstSweep *sweep, const OstScene *scene, const OstResult *result, OstSweepRun *run)
 {
     OstWatchedValue *watched = NULL;
+    OST_TRY(ost_agree(sweep->ctx, OST_NEW(sweep->ctx, &run->watched, sweep->watch_count)));
     OST_TRY(ost_watch_evaluate_all(scene, result, &watched));
-    for (int w = 0; w < sweep->watch_count; w++) {
+    for (int w = 0; w < sweep->watch_count; w++)
         run->watched[w] = NAN;
-        for (int i = 0; i < scene->c->watch_count; i++)
-            if (strcmp(scene->c->watches[i].name, sweep->watch[w]) == 0)
-                run->watched[w] = watched[i].value;
+    for (int i = 0; i < scene->c->watch_count; i++) {
+        const int w = find_watch(sweep, scene->c->watches[i].name);
+        if (w < sweep->watch_count)
+            run->watched[w] = watched[i].value;
     }
     OST_FREE(watched);
     run->unknowns = result->unknowns;
@@ -103,49 +115,146 @@ static OstStatus solve_once(const OstSweep *sweep, const OstCase *c, OstSweepRun
     return status;
 }
 
-static OstStatus name_watches(OstSweep *sweep, const OstCase *c)
+/* --- one load case, or the case --- */
+
+static int runs_of_value(const OstSweep *sweep)
 {
-    for (int w = 0; w < c->watch_count; w++) {
-        OST_TRY(ost_copy_string(sweep->ctx, c->watches[w].name, &sweep->watch[w]));
-        sweep->watch_count = w + 1;
-    }
-    return OST_SUCCESS;
+    return sweep->case_count > 0 ? sweep->case_count : 1;
 }
 
-static OstStatus solve(OstSweep *sweep, int number)
+static void name_run(const OstSweep *sweep, int number, size_t size, char *name)
 {
-    OstSweepRun *run = &sweep->run[number];
-    OstCase *c = NULL;
-    const double start = ost_seconds();
-    choose_values(sweep, number, run);
-    OstStatus status = read_case(sweep, run, &c);
-    if (status == OST_SUCCESS && c->load_case_count > 0)
-        status = OST_RAISE(sweep->ctx, OST_INVALID_USAGE,
-                           "%s: there are %d load cases, and a sweep is of one: name it, as in --case %s", c->path,
-                           c->load_case_count, c->load_cases[0].name);
-    if (status == OST_SUCCESS && number == 0)
-        status = ost_agree(sweep->ctx, name_watches(sweep, c));
-    OST_THEN(c->asks_error && c->path_steps == 0 ? solve_accurately(sweep, c, run) : solve_once(sweep, c, run));
-    ost_case_destroy(&c);
-    run->seconds = ost_seconds() - start;
-    return status;
+    const char *load_case = sweep->run[number].load_case;
+    snprintf(name, size, "run %d of %d%s%s", number + 1, sweep->run_count, load_case ? ", load case " : "",
+             load_case ? load_case : "");
+}
+
+static void show_progress(const OstSweep *sweep, int number, int done)
+{
+    char name[128], what[160];
+    name_run(sweep, number, sizeof name, name);
+    snprintf(what, sizeof what, "sweep: %s", name);
+    ost_progress_task(sweep->ctx, what, done, sweep->run_count);
 }
 
 /* What is wrong with the case itself shows in the first run. */
 static OstStatus take_failure(OstSweep *sweep, int number, OstStatus status)
 {
-    const int is_of_run = status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED || number > 0;
-    if (!is_of_run || status == OST_LIBRARY_FAILED || status == OST_INVALID_USAGE)
+    const int is_first = number < runs_of_value(sweep);
+    const int is_of_run = status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED || !is_first;
+    char name[128];
+    if (status == OST_SUCCESS || !is_of_run || status == OST_LIBRARY_FAILED || status == OST_INVALID_USAGE)
         return status;
     sweep->failures++;
-    ost_warn(sweep->ctx, "run %d of %d has no answer: %s", number + 1, sweep->run_count, ost_error_text(sweep->ctx));
+    name_run(sweep, number, sizeof name, name);
+    ost_warn(sweep->ctx, "%s has no answer: %s", name, ost_error_text(sweep->ctx));
     return ost_agree(sweep->ctx, ost_copy_string(sweep->ctx, ost_error_text(sweep->ctx), &sweep->run[number].failure));
+}
+
+/* --- the load cases of one value --- */
+
+/* On one mesh: as `solve` does, with all that they share. */
+static OstStatus solve_together(OstSweep *sweep, const OstCase *c, int first)
+{
+    OstScene *scene = NULL;
+    OstLoadCases *cases = NULL;
+    OstStatus status = ost_scene_create(c, &scene);
+    OST_THEN(ost_load_cases_create(scene, &cases));
+    for (int k = 0; k < c->load_case_count && status == OST_SUCCESS; k++)
+        status = ost_watch_check(ost_load_cases_scene(cases, k));
+    while (status == OST_SUCCESS && ost_load_cases_left(cases) > 0) {
+        OstResult *result = NULL;
+        const int number = ost_load_cases_next(cases);
+        const OstScene *own = ost_load_cases_scene(cases, number);
+        show_progress(sweep, first + number, first + c->load_case_count - ost_load_cases_left(cases));
+        status = ost_load_cases_solve(cases, ost_scene_result_fields(own), &result);
+        OST_THEN(note(sweep, own, result, &sweep->run[first + number]));
+        status = take_failure(sweep, first + number, status);
+        ost_result_destroy(&result);
+    }
+    ost_load_cases_destroy(&cases);
+    ost_scene_destroy(&scene);
+    return status;
+}
+
+static OstStatus solve_each(OstSweep *sweep, const OstCase *c, int first)
+{
+    OstStatus status = OST_SUCCESS;
+    if (!c->asks_error)
+        return solve_together(sweep, c, first);
+    for (int k = first; k < first + c->load_case_count && status == OST_SUCCESS; k++) {
+        show_progress(sweep, k, k);
+        status = take_failure(sweep, k, solve_accurately(sweep, c->load_cases[k - first].c, &sweep->run[k]));
+    }
+    return status;
+}
+
+static OstStatus check_load_cases(const OstSweep *sweep, const OstCase *c)
+{
+    int same = c->load_case_count == sweep->case_count;
+    for (int k = 0; same && k < c->load_case_count; k++)
+        same = strcmp(c->load_cases[k].name, sweep->cases[k].name) == 0;
+    return same ? OST_SUCCESS
+                : OST_RAISE(sweep->ctx, OST_INVALID_USAGE, "%s: a sweep cannot change which load cases there are",
+                            sweep->path);
+}
+
+/* --- all --- */
+
+static OstStatus name_watches(OstSweep *sweep, const OstCase *c)
+{
+    for (int w = 0; w < c->watch_count; w++) {
+        if (find_watch(sweep, c->watches[w].name) < sweep->watch_count)
+            continue;
+        OST_TRY(OST_RESIZE(sweep->ctx, &sweep->watch, sweep->watch_count + 1));
+        sweep->watch[sweep->watch_count] = NULL;
+        OST_TRY(ost_copy_string(sweep->ctx, c->watches[w].name, &sweep->watch[sweep->watch_count++]));
+    }
+    for (int k = 0; k < c->load_case_count; k++)
+        OST_TRY(name_watches(sweep, c->load_cases[k].c));
+    return OST_SUCCESS;
+}
+
+/* For the values of the runs from the first on. */
+static OstStatus solve(OstSweep *sweep, int first)
+{
+    OstSweepRun *run = &sweep->run[first];
+    OstCase *c = NULL;
+    const double start = ost_seconds();
+    OstStatus status = read_case(sweep, run, &c);
+    OST_THEN(check_load_cases(sweep, c));
+    if (status == OST_SUCCESS && first == 0)
+        status = ost_agree(sweep->ctx, name_watches(sweep, c));
+    OST_THEN(c->load_case_count > 0                ? solve_each(sweep, c, first)
+             : c->asks_error && c->path_steps == 0 ? solve_accurately(sweep, c, run)
+                                                   : solve_once(sweep, c, run));
+    ost_case_destroy(&c);
+    const double share = (ost_seconds() - start) / runs_of_value(sweep);
+    for (int k = 0; k < runs_of_value(sweep); k++)
+        run[k].seconds = share;
+    return status;
+}
+
+/* What keeps one from being solved is of all load cases. */
+static OstStatus solve_value(OstSweep *sweep, int number)
+{
+    const int count = runs_of_value(sweep), first = number * count;
+    for (int k = 0; k < count; k++) {
+        choose_values(sweep, number, &sweep->run[first + k]);
+        sweep->run[first + k].load_case = sweep->case_count > 0 ? sweep->cases[k].name : NULL;
+    }
+    show_progress(sweep, first, first);
+    const OstStatus status = solve(sweep, first);
+    for (int k = first; status != OST_SUCCESS && k < first + count; k++)
+        if (!sweep->run[k].failure)
+            OST_TRY(take_failure(sweep, k, status));
+    return OST_SUCCESS;
 }
 
 OstStatus ost_sweep_run(OstSweep *sweep)
 {
     OstContext *ctx = sweep->ctx;
-    long runs = 1;
+    long runs = runs_of_value(sweep);
     for (int k = 0; k < sweep->key_count; k++)
         runs *= runs > OST_MOST_SWEEP_RUNS ? 1 : sweep->key[k].count;
     if (runs > OST_MOST_SWEEP_RUNS)
@@ -153,23 +262,16 @@ OstStatus ost_sweep_run(OstSweep *sweep)
                          sweep->path, runs, OST_MOST_SWEEP_RUNS);
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &sweep->run, runs)));
     sweep->run_count = (int)runs;
-    for (int r = 0; r < sweep->run_count; r++) {
-        char what[64];
-        snprintf(what, sizeof what, "sweep: run %d of %d", r + 1, sweep->run_count);
-        ost_progress_task(ctx, what, (double)r / sweep->run_count);
-        const OstStatus status = solve(sweep, r);
-        if (status != OST_SUCCESS)
-            OST_TRY(take_failure(sweep, r, status));
-    }
-    ost_progress_task(ctx, "", -1.0);
+    for (int number = 0; number < sweep->run_count / runs_of_value(sweep); number++)
+        OST_TRY(solve_value(sweep, number));
+    ost_progress_task(ctx, "", 0, 0);
     return OST_SUCCESS;
 }
 
 void ost_sweep_clear(OstSweep *sweep)
 {
     for (int r = 0; sweep->run && r < sweep->run_count; r++)
-        OST_FREE(sweep->run[r].failure);
-    for (int w = 0; w < sweep->watch_count; w++)
-        OST_FREE(sweep->watch[w]);
+        OST_FREE(sweep->run[r].failure, sweep->run[r].watched);
+    OST_FREE_EACH(sweep->watch_count, sweep->watch);
     OST_FREE(sweep->run);
 }
