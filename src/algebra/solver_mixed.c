@@ -88,7 +88,7 @@ static OstStatus find_error(OstSolver *solver, double missing, const OstSaddle *
         return ost_saddle_factors_solve(solver->whole, r_u, saddle->g, e_u, saddle->p);
     ost_solver_system(solver, &system, &preconditioner);
     if (missing < 1.0)
-        return ost_saddle_iterated_error(&system, &preconditioner, saddle, missing, r_u, e_u, found);
+        return ost_saddle_iterated_error(&system, &preconditioner, saddle, solver->scale, missing, r_u, e_u, found);
     OST_TRY(ost_saddle_error(&system, &preconditioner, saddle, solver->scale, r_u, e_u));
     for (size_t i = 0; i < 3 * (size_t)solver->matrix->rows; i++)
         e_u[i] /= solver->smallest;

@@ -63,7 +63,9 @@ static OstStatus create(const OstCgSystem *system, const OstCoupling *coupling, 
 /* T's diagonal at a pressure. */
 static double diagonal_at(const OstCgSystem *system, const OstCoupling *coupling, OstLocal i)
 {
-    double sum = coupling->looseness[i] * coupling->diagonal[i];
+    double sum = 0.0;
+    for (OstLocal k = coupling->mass_start[i]; k < coupling->mass_start[i + 1]; k++)
+        sum += coupling->mass_column[k] == i ? coupling->looseness[i] * coupling->mass[k] : 0.0;
     for (OstLocal k = coupling->row_start[i]; k < coupling->row_start[i + 1]; k++) {
         const double *s = system->scaling->factor + 6 * (size_t)coupling->column[k];
         const double *b = coupling->value + 3 * (size_t)k;
@@ -94,7 +96,7 @@ static OstLocal find_diagonal(OstLocalSchur *local)
     for (OstLocal i = 0; i < coupling->rows; i++) {
         const double sum = diagonal_at(&local->system, coupling, i);
         const double of_mass = coupling->schur[i] * coupling->diagonal[i];
-        found += sum < apart * of_mass;
+        found += sum > 0.0 && sum < apart * of_mass;
         local->diagonal[i] = sum > 0.0 ? sum : of_mass;
     }
     return found;

@@ -177,7 +177,7 @@ static OstStatus judge_error(OstSaddleRun *run)
 {
     OstGoal *goal = run->goal;
     OstAlgebraicError *error = &goal->error;
-    if (!goal->stop || run->passes > 0)
+    if (!goal->stop || run->passes > 0 || run->lanczos.count == 0)
         return OST_SUCCESS;
     ost_algebraic_error(&run->lanczos, error);
     goal->rate = ost_algebraic_error_rate(&run->lanczos, error);
@@ -225,6 +225,9 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
             return OST_SUCCESS;
         if (again && run->passes == 0)
             run->lanczos.count = 0; /* of another operator */
+        OST_TRY(judge_error(run));
+        if (goal->enough)
+            return OST_SUCCESS;
         OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
         *broken = !(curvature > 0.0 && isfinite(curvature));
         if (*broken)
@@ -246,9 +249,6 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
                      goal->convergence.count, 1.0 / run->tau);
             return OST_SUCCESS;
         }
-        OST_TRY(judge_error(run));
-        if (goal->enough)
-            return OST_SUCCESS;
         OST_TRY(renew(run, 0));
     }
 }
@@ -455,7 +455,7 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     OstSaddleRun run = ost_saddle_run_of(system, preconditioner, saddle, f, u, goal);
-    run.tau = margin / (preconditioner->factors ? 1.0 : first_eigenvalue);
+    run.tau = fmax(margin / (preconditioner->factors ? 1.0 : first_eigenvalue), goal->scale);
     run.beyond = beyond;
     goal->end = OST_END_REACHED;
     if (goal->start == 0.0)
