@@ -12,11 +12,12 @@ static const double small_error = 1e-6, part = 0.1;
 
 /* Reactions and stresses so much worse than the displacement are seldom true: one application makes up to 3000 times
  * too much of them. Below the second number that is no matter, but for those that are worse by the third. */
-static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e3;
+static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e2;
 
 /* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
- * and above which residual they are as asked for. */
-static const double forces_caution = 2.0, corrected_caution = 3.0;
+ * and above which residual they are as asked for. One application finds the energy of an error, and of the stress in
+ * thin layers, which have little of it, a sixth. */
+static const double once_caution = 3.0, forces_caution = 2.0, corrected_caution = 3.0;
 static const double worth_correcting = 1e-4, past_correcting = 0.5, large_residual = 1e-4;
 enum { MOST_CORRECTIONS = 20 };
 
@@ -148,15 +149,14 @@ static int is_rough(const OstErrors *errors)
 static OstStatus measure_all(Search *search, OstErrors *errors)
 {
     const OstSolveReport *report = search->solved->report;
-    double caution = forces_caution;
+    double caution = once_caution;
     OST_TRY(measure(search, 1.0, errors));
     if (is_rough(errors)) {
         OST_TRY(measure(search, part, errors));
         if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
             (report->rounding_limited || report->relative_residual <= large_residual))
             OST_TRY(correct(search, errors));
-        if (errors->corrected)
-            caution = corrected_caution;
+        caution = errors->corrected ? corrected_caution : forces_caution;
         errors->displacement *= errors->corrected ? caution : 1.0;
     }
     errors->reaction *= caution;

@@ -24,8 +24,8 @@ static const double low = 0.1, most_weight = 1e4;
 /* The steps' interval is from the largest eigenvalue, with some safety, down to this share of it. With a tenth of T^-1
  * the eigenvalues of soft inclusions (E2 x 1e6, axes that vary) are in 0.10 to 1.0, and without in 0.003 to 0.76; of a
  * checkerboard (E1 x 1e6) 0.04 to 2.7, and 0.002 to 1. */
-static const double share = 0.1, interval = 100.0, safety = 1.1;
-enum { STEPS = 14, POWER_STEPS = 20 };
+static const double share = 0.1, interval = 100.0, safety = 1.2;
+enum { STEPS = 14, POWER_STEPS = 40 };
 
 struct OstLocalSchur {
     OstCgSystem system;
