@@ -109,6 +109,12 @@ OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSad
     return status;
 }
 
+int ost_solver_mixed_is_poor(const OstSolver *solver)
+{
+    static const double poor = 3.0; /* a healthy solve ends with 1.2 to 2.5 */
+    return !solver->whole && solver->scale > poor;
+}
+
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,
                                    double relative, const double *f, double *u, OstSolveReport *report)
 {

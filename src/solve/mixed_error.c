@@ -171,7 +171,8 @@ OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, co
     *errors = (OstErrors){0};
     OstStatus status = make_room(&search);
     OST_THEN(find_residuals(&search));
-    OST_THEN(once ? measure(&search, 1.0, errors) : measure_all(&search, errors));
+    OST_THEN(once ? measure(&search, ost_solver_mixed_is_poor(solver) ? part : 1.0, errors)
+                  : measure_all(&search, errors));
     if (status == OST_SUCCESS && solved->error)
         memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     release(&search);
