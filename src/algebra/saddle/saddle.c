@@ -99,8 +99,9 @@ static void enlarge_by(OstSaddleRun *run, double larger)
     ost_log(run->ctx, OST_LOG_VERBOSE, "solver: the preconditioner is scaled by %.3g", run->tau);
 }
 
-/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N proves not to be positive definite
- * (*again). A z.u that has been carried along is no longer N^-1 r to the last digit, and proves nothing. */
+/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N is next to indefinite (*again: 1), or
+ * proves not to be positive definite (2). A z.u that has been carried along is no longer N^-1 r to the last digit, and
+ * proves nothing. */
 static OstStatus complete(OstSaddleRun *run, int *again)
 {
     double sums[SUMS];
@@ -117,7 +118,7 @@ static OstStatus complete(OstSaddleRun *run, int *again)
         enlarge_by(run, larger);
         sums[SUM_AZ] *= larger * larger;
         sums[SUM_RZ] *= larger;
-        *again = 1;
+        *again = larger > margin ? 2 : 1;
     }
     for (size_t i = 0; i < run->m; i++)
         run->q[i] = run->bz[i] - run->r.p[i];
@@ -223,11 +224,12 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
             run->begun = run->weight / (run->tau * run->tau);
         if (*broken)
             return OST_SUCCESS;
-        if (again && run->passes == 0)
-            run->lanczos.count = 0; /* of another operator */
-        OST_TRY(judge_error(run));
+        if (again < 2) /* else the iteration did not see all of the error */
+            OST_TRY(judge_error(run));
         if (goal->enough)
             return OST_SUCCESS;
+        if (again && run->passes == 0)
+            run->lanczos.count = 0; /* of another operator */
         OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
         *broken = !(curvature > 0.0 && isfinite(curvature));
         if (*broken)
