@@ -146,6 +146,15 @@ static int is_rough(const OstErrors *errors)
     return !errors->known || largest(errors) > small_error || doubts;
 }
 
+/* After an early stop, which goes on where this is too large. */
+static OstStatus measure_once(Search *search, OstErrors *errors)
+{
+    OST_TRY(measure(search, ost_solver_mixed_is_poor(search->solver) ? part : 1.0, errors));
+    errors->reaction *= forces_caution;
+    errors->stress *= forces_caution;
+    return OST_SUCCESS;
+}
+
 static OstStatus measure_all(Search *search, OstErrors *errors)
 {
     const OstSolveReport *report = search->solved->report;
@@ -171,8 +180,7 @@ OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, co
     *errors = (OstErrors){0};
     OstStatus status = make_room(&search);
     OST_THEN(find_residuals(&search));
-    OST_THEN(once ? measure(&search, ost_solver_mixed_is_poor(solver) ? part : 1.0, errors)
-                  : measure_all(&search, errors));
+    OST_THEN(once ? measure_once(&search, errors) : measure_all(&search, errors));
     if (status == OST_SUCCESS && solved->error)
         memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     release(&search);
