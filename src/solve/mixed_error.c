@@ -137,13 +137,15 @@ static OstStatus correct(Search *search, OstErrors *errors)
     return OST_SUCCESS;
 }
 
-/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? */
-static int is_rough(const OstErrors *errors)
+/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? After so many
+ * iterations it has told 2000 times too much, and further ones add little. */
+static int is_rough(const OstErrors *errors, const OstSolveReport *report)
 {
+    enum { SLOW = 150 };
     const double forces = fmax(errors->reaction, errors->stress);
     const int doubts =
         forces > fmax(doubtful * errors->displacement, least_doubtful) || forces > most_doubtful * errors->displacement;
-    return !errors->known || largest(errors) > small_error || doubts;
+    return !errors->known || largest(errors) > small_error || doubts || report->iterations > SLOW;
 }
 
 /* After an early stop, which goes on where this is too large. */
@@ -160,7 +162,7 @@ static OstStatus measure_all(Search *search, OstErrors *errors)
     const OstSolveReport *report = search->solved->report;
     double caution = once_caution;
     OST_TRY(measure(search, 1.0, errors));
-    if (is_rough(errors)) {
+    if (is_rough(errors, report)) {
         OST_TRY(measure(search, part, errors));
         if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
             (report->rounding_limited || report->relative_residual <= large_residual))
