@@ -138,7 +138,7 @@ static void what_forces_hold_more_of_is_stated(void **state)
     assert_true(reading.truth.off.known && hard_states_its_error(&reading));
 }
 
-/* Bars by the mixed form, stopped early, some held by springs: softer than the preconditioner says, so that the norm in
+/* Bars by the mixed form, stopped early and held by springs: softer than the preconditioner says, so that the norm in
  * which the iteration goes down did not see what was left. They stated a fifth to a seventeenth of their errors. */
 static void what_a_mixed_form_leaves_is_stated(void **state)
 {
@@ -149,7 +149,6 @@ static void what_a_mixed_form_leaves_is_stated(void **state)
         {"[20, 1, 0.3], divisions: [8, 1, 1]", "[1, 1, 10]", "0.1", "zmax", 30},
         {"[40, 1, 1], divisions: [4, 1, 1]", "[1, 1, 1]", "10", "xmax", 100},
         {"[6, 1, 0.1], divisions: [3, 1, 1]", "[1000, 1, 1]", "10", "zmax", 100},
-        {"[20, 1, 1], divisions: [12, 2, 2]", "[1, 1, 10000]", "0.1", "xmax", 100},
     };
     for (size_t b = 0; b < sizeof bars / sizeof *bars; b++) {
         HardReading reading = {.point = {0}};
