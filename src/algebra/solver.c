@@ -328,6 +328,7 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
     const int again = may_be_precise(solver, goal);
     const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
     solver->precise |= again;
+    goal->scale = 0.0;
     OstStatus status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
@@ -432,6 +433,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     if (solver->aim.relative_residual > 0.0)
         goal.target = solver->aim.relative_residual * goal.start;
     goal.crude = solver->aim.crude;
+    goal.scale = solver->aim.goes_on ? solver->scale : 0.0;
     goal.stop = stop->user && !is_uneven(solver) ? &stop->stop : NULL;
     OstStatus status = OST_SUCCESS;
     if (solver->method != OST_METHOD_AUTO)

@@ -71,6 +71,10 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
 OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSaddle *saddle, const double *r_u,
                                  double *e_u, int *found);
 
+/* Local. Has the last solve of a mixed form found so small an eigenvalue of M^-1 A that one application of M may leave
+ * out most of an error? */
+int ost_solver_mixed_is_poor(const OstSolver *solver);
+
 /* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
  * Of multigrid half a cycle is taken, which may be unsymmetric, or the brief half. *found: 0 if the solver has no
  * strategy. */

@@ -88,7 +88,7 @@ static OstStatus find_error(OstSolver *solver, double missing, const OstSaddle *
         return ost_saddle_factors_solve(solver->whole, r_u, saddle->g, e_u, saddle->p);
     ost_solver_system(solver, &system, &preconditioner);
     if (missing < 1.0)
-        return ost_saddle_iterated_error(&system, &preconditioner, saddle, missing, r_u, e_u, found);
+        return ost_saddle_iterated_error(&system, &preconditioner, saddle, solver->scale, missing, r_u, e_u, found);
     OST_TRY(ost_saddle_error(&system, &preconditioner, saddle, solver->scale, r_u, e_u));
     for (size_t i = 0; i < 3 * (size_t)solver->matrix->rows; i++)
         e_u[i] /= solver->smallest;
@@ -107,6 +107,12 @@ OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSad
     const OstStatus status = find_error(solver, missing, saddle, r_u, e_u, found);
     ost_ledger_leave(solver->ctx);
     return status;
+}
+
+int ost_solver_mixed_is_poor(const OstSolver *solver)
+{
+    static const double poor = 3.0; /* a healthy solve ends with 1.2 to 2.5 */
+    return !solver->whole && solver->scale > poor;
 }
 
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,

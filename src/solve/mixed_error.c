@@ -12,11 +12,12 @@ static const double small_error = 1e-6, part = 0.1;
 
 /* Reactions and stresses so much worse than the displacement are seldom true: one application makes up to 3000 times
  * too much of them. Below the second number that is no matter, but for those that are worse by the third. */
-static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e3;
+static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e2;
 
 /* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
- * and above which residual they are as asked for. */
-static const double forces_caution = 2.0, corrected_caution = 3.0;
+ * and above which residual they are as asked for. One application finds the energy of an error, and of the stress in
+ * thin layers, which have little of it, a sixth. */
+static const double once_caution = 3.0, forces_caution = 2.0, corrected_caution = 3.0;
 static const double worth_correcting = 1e-4, past_correcting = 0.5, large_residual = 1e-4;
 enum { MOST_CORRECTIONS = 20 };
 
@@ -136,27 +137,37 @@ static OstStatus correct(Search *search, OstErrors *errors)
     return OST_SUCCESS;
 }
 
-/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? */
-static int is_rough(const OstErrors *errors)
+/* Does one application of the preconditioner not tell enough, or nothing as no eigenvalue is known? After so many
+ * iterations it has told 2000 times too much, and further ones add little. */
+static int is_rough(const OstErrors *errors, const OstSolveReport *report)
 {
+    enum { SLOW = 150 };
     const double forces = fmax(errors->reaction, errors->stress);
     const int doubts =
         forces > fmax(doubtful * errors->displacement, least_doubtful) || forces > most_doubtful * errors->displacement;
-    return !errors->known || largest(errors) > small_error || doubts;
+    return !errors->known || largest(errors) > small_error || doubts || report->iterations > SLOW;
+}
+
+/* After an early stop, which goes on where this is too large. */
+static OstStatus measure_once(Search *search, OstErrors *errors)
+{
+    OST_TRY(measure(search, ost_solver_mixed_is_poor(search->solver) ? part : 1.0, errors));
+    errors->reaction *= forces_caution;
+    errors->stress *= forces_caution;
+    return OST_SUCCESS;
 }
 
 static OstStatus measure_all(Search *search, OstErrors *errors)
 {
     const OstSolveReport *report = search->solved->report;
-    double caution = forces_caution;
+    double caution = once_caution;
     OST_TRY(measure(search, 1.0, errors));
-    if (is_rough(errors)) {
+    if (is_rough(errors, report)) {
         OST_TRY(measure(search, part, errors));
         if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
             (report->rounding_limited || report->relative_residual <= large_residual))
             OST_TRY(correct(search, errors));
-        if (errors->corrected)
-            caution = corrected_caution;
+        caution = errors->corrected ? corrected_caution : forces_caution;
         errors->displacement *= errors->corrected ? caution : 1.0;
     }
     errors->reaction *= caution;
@@ -171,7 +182,7 @@ OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, co
     *errors = (OstErrors){0};
     OstStatus status = make_room(&search);
     OST_THEN(find_residuals(&search));
-    OST_THEN(once ? measure(&search, 1.0, errors) : measure_all(&search, errors));
+    OST_THEN(once ? measure_once(&search, errors) : measure_all(&search, errors));
     if (status == OST_SUCCESS && solved->error)
         memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     release(&search);

@@ -46,16 +46,6 @@ static void gather(const OstBatch *batch, int slot, int nodes, const Twofold *u,
         }
 }
 
-/* S u of a node's springs, along one direction. */
-static Long spring_force(const Exact *exact, size_t node, size_t i, const Twofold *u)
-{
-    const double *spring = exact->direct->supports->spring;
-    Long sum = 0.0L;
-    for (size_t j = 0; j < 3 && spring; j++)
-        sum += (Long)spring[9 * node + 3 * i + j] * ((Long)u[3 * node + j].high + (Long)u[3 * node + j].low);
-    return sum;
-}
-
 static void find_internal(Exact *exact, const Twofold *displacement)
 {
     const OstMesh *mesh = exact->mesh;
@@ -63,7 +53,7 @@ static void find_internal(Exact *exact, const Twofold *displacement)
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
     for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
-        exact->internal[i] = spring_force(exact, i / 3, i % 3, displacement);
+        exact->internal[i] = hard_spring_force(exact->direct->supports, i / 3, i % 3, displacement);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         ost_batch_gather_from(&batch, element, mesh, exact->scene->field, first, mesh->tet_count);
         for (int slot = 0; slot < batch.count; slot++) {
@@ -161,9 +151,6 @@ static OstStatus solve(Exact *exact, int *known)
 
 enum { DISPLACEMENT, DISPLACEMENT_ERROR, REACTION, REACTION_ERROR, LOAD, STRESS, STRESS_ERROR, SUMS };
 
-/* Reactions may be none: their error is over no less than this share of the loads, as the program states it. */
-static const double least_reaction = 1e-3;
-
 static void add_stresses(const Exact *exact, const Twofold *off, double *sums)
 {
     const OstMesh *mesh = exact->mesh;
@@ -195,7 +182,7 @@ static void add_reactions(const Exact *exact, const OstResult *result, double *s
         if (constrained == 0 && !exact->direct->supports->spring)
             continue;
         for (size_t i = 0; i < 3; i++) {
-            Long reaction = -spring_force(exact, (size_t)node, i, exact->u);
+            Long reaction = -hard_spring_force(exact->direct->supports, (size_t)node, i, exact->u);
             for (size_t j = 0; j < 3; j++)
                 reaction += ((i == j) - (Long)projector[3 * i + j]) *
                             (exact->internal[n + j] - (Long)exact->direct->force[n + j]);
@@ -224,7 +211,8 @@ static OstStatus compare(Exact *exact, const OstResult *result, HardErrors *erro
     add_stresses(exact, off, sums);
     OST_TRY_DONE(ost_sum(exact->direct->ctx, SUMS, sums));
     errors->displacement = sqrt(sums[DISPLACEMENT_ERROR] / sums[DISPLACEMENT]);
-    errors->reaction = sqrt(sums[REACTION_ERROR] / fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]));
+    errors->reaction =
+        sqrt(sums[REACTION_ERROR] / fmax(sums[REACTION], hard_least_reaction * hard_least_reaction * sums[LOAD]));
     errors->stress = sqrt(sums[STRESS_ERROR] / sums[STRESS]);
 done:
     OST_FREE(off);

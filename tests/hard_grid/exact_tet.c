@@ -167,3 +167,14 @@ void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, c
     for (int p = 0; p < 6 && mean; p++)
         mean[p] = sum[p] / volume;
 }
+
+const double hard_least_reaction = 1e-3;
+
+Long hard_spring_force(const OstSupports *supports, size_t node, size_t i, const Twofold *u)
+{
+    const double *spring = supports->spring;
+    Long sum = 0.0L;
+    for (size_t j = 0; j < 3 && spring; j++)
+        sum += (Long)spring[9 * node + 3 * i + j] * ((Long)u[3 * node + j].high + (Long)u[3 * node + j].low);
+    return sum;
+}

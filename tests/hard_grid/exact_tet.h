@@ -3,6 +3,8 @@
 #define HARD_GRID_EXACT_TET_H
 
 #include "assembly/batch.h"
+#include "assembly/supports.h"
+#include "hard_grid/twofold.h"
 
 typedef long double Long;
 
@@ -11,5 +13,11 @@ typedef long double Long;
  * but the displacements may be NULL. */
 void hard_exact_tet(const OstBatch *batch, int slot, int nodes, const Long *u, const Long pressure[4], Long *force,
                     Long stress[6], Long volume[4]);
+
+/* Local. S u of a node's springs, along one direction. */
+Long hard_spring_force(const OstSupports *supports, size_t node, size_t i, const Twofold *u);
+
+/* Reactions may be none: their error is over no less than this share of the loads, as the program states it. */
+extern const double hard_least_reaction;
 
 #endif

@@ -10,17 +10,22 @@
  * of it, had no aggregates that bend; of the checkerboard's pressures, next to far stiffer cells, the mass matrix knows
  * too little: it stated errors of reactions 3000 times too large, after 304 iterations. The layers were given up as
  * their preconditioner, built with all digits, has eigenvalues that were taken for rounding. The second checkerboard
- * stated errors of stresses 2000 times too large. Of the last body, single precision lost the inverses of the
- * smoother's blocks, so that no preconditioner was positive definite. */
+ * stated errors of stresses 2000 times too large, the second layers those of stresses 0.29 of the true ones. Of the
+ * last body, single precision lost the inverses of the smoother's blocks, so that no preconditioner was positive
+ * definite. */
 static void hard_bodies_are_solved_by_iterations(void **state)
 {
     (void)state;
     static const struct {
         const char *shape;
         int poisson, ratio, stiff, axes, most;
-    } bodies[] = {{"plate", HARD_INCOMPRESSIBLE, 0, 0, 0, 180},   {"beam", HARD_INCOMPRESSIBLE, 2, 1, 0, 250},
-                  {"checker", HARD_INCOMPRESSIBLE, 1, 0, 0, 220}, {"layers", HARD_INCOMPRESSIBLE, 2, 0, 1, 600},
-                  {"checker", HARD_INCOMPRESSIBLE, 1, 1, 2, 400}, {"layers", 1, 2, 2, 2, 400}};
+    } bodies[] = {{"plate", HARD_INCOMPRESSIBLE, 0, 0, 0, 180},
+                  {"beam", HARD_INCOMPRESSIBLE, 2, 1, 0, 250},
+                  {"checker", HARD_INCOMPRESSIBLE, 1, 0, 0, 220},
+                  {"layers", HARD_INCOMPRESSIBLE, 2, 0, 1, 600},
+                  {"checker", HARD_INCOMPRESSIBLE, 1, 1, 2, 400},
+                  {"layers", HARD_INCOMPRESSIBLE, 1, 1, 0, 200},
+                  {"layers", 1, 2, 2, 2, 400}};
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
         const HardPoint point = {.shape = hard_find_shape(bodies[i].shape),
                                  .order = 2,

@@ -225,7 +225,32 @@ static void a_body_whose_inside_is_fixed_takes_few_iterations(void **state)
     check_iterations("half of a block is fixed", text, 2, 45, NULL, NULL);
 }
 
+/* Tets of a lower half that is fixed throughout change no volume: the upper half alone takes as many iterations. */
+static void a_fixed_half_takes_no_iterations(void **state)
+{
+    static const struct {
+        const char *size, *held;
+    } bodies[] = {{"[1, 1, 1], divisions: [6, 6, 6]}}", "{box: {min: [-1, -1, -1], max: [2, 2, 0.5]}}"},
+                  {"[1, 1, 0.5], divisions: [6, 6, 3]}}", "{boundary: zmin}"}};
+    for (int k = 0; k < 2; k++) {
+        int iterations[2];
+        for (int alone = 0; alone < 2; alone++) {
+            char text[1024];
+            snprintf(text, sizeof text,
+                     "mesh: {block: {size: %s\nmaterials: [{region: all, youngs_modulus: 1e6, poissons_ratio: %s}]\n"
+                     "constraints: [{on: %s, displacement: [0, 0, 0]}]\n"
+                     "loads: [{on: {boundary: zmax}, traction: [1, 0, -1]}]\nlarge_rotation: off\n"
+                     "accuracy: {relative_residual: 1e-8}\nsolver: {method: metric}\n",
+                     bodies[alone].size, k ? "0.499" : "0.5", bodies[alone].held);
+            iterations[alone] = count_iterations(text, 2, NULL, NULL);
+        }
+        if (iterations[0] > iterations[1] + 3)
+            fail_msg("half fixed: %d iterations, the other half alone: %d", iterations[0], iterations[1]);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_fixed_half_takes_no_iterations),
     cmocka_unit_test(a_body_whose_inside_is_fixed_takes_few_iterations),
     cmocka_unit_test(any_compressibility_and_stiffness_is_solved),
     cmocka_unit_test(an_incompressible_block_in_a_box_bears_the_load),

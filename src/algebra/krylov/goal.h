@@ -44,7 +44,7 @@ typedef struct OstGoal {
     double settled; /* also iterate until a correction changes u by no more than this, relative to u; 0: do not */
     double drift; /* with `settled`: estimated relative change of u by all later corrections (their geometric series) */
     double smallest; /* eigenvalue of M^-1 A, about, as the last strategy's iterations show it; 0 if not known */
-    double scale;    /* of a mixed form's preconditioner of A (saddle/error.h) */
+    double scale;    /* of a mixed form's preconditioner of A (saddle/error.h); at first: what is known of it, or 0 */
     OstConvergence convergence;
     const OstErrorStop *stop; /* ends the iteration before the target is reached; NULL: none */
     double next;              /* the error at which it is asked next; 0: not asked yet */

@@ -20,6 +20,8 @@ void ost_coupling_destroy(OstCoupling **coupling)
     OST_FREE((*coupling)->value);
     OST_FREE((*coupling)->mass_start);
     OST_FREE((*coupling)->mass_column);
+    if ((*coupling)->estimate != (*coupling)->mass)
+        OST_FREE((*coupling)->estimate);
     OST_FREE((*coupling)->mass);
     OST_FREE((*coupling)->diagonal);
     OST_FREE((*coupling)->looseness);
@@ -58,17 +60,23 @@ OstStatus ost_coupling_transpose(const OstCoupling *coupling, double *p, double 
     return OST_SUCCESS;
 }
 
-OstStatus ost_coupling_mass(const OstCoupling *coupling, double *p, double *restrict y)
+/* y = M p of a matrix with these values. */
+static OstStatus multiply(const OstCoupling *coupling, const double *values, double *p, double *restrict y)
 {
     OST_TRY(ost_halo_import(coupling->halo, sizeof *p, p));
     for (OstLocal i = 0; i < coupling->rows; i++) {
         double sum = 0.0;
         for (OstLocal k = coupling->mass_start[i]; k < coupling->mass_start[i + 1]; k++)
-            sum += coupling->mass[k] * p[coupling->mass_column[k]];
+            sum += values[k] * p[coupling->mass_column[k]];
         y[i] = sum;
     }
     ost_ledger_multiplied(coupling->ctx, coupling->mass_start[coupling->rows]);
     return OST_SUCCESS;
+}
+
+OstStatus ost_coupling_mass(const OstCoupling *coupling, double *p, double *y)
+{
+    return multiply(coupling, coupling->mass, p, y);
 }
 
 OstStatus ost_coupling_give_way(const OstCoupling *coupling, double *p, double *y)
@@ -79,7 +87,7 @@ OstStatus ost_coupling_give_way(const OstCoupling *coupling, double *p, double *
     return OST_SUCCESS;
 }
 
-/* Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1, for D^-1 M. */
+/* Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1, for D^-1 E. */
 OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *weights, const double *r, double *z,
                                    double *work)
 {
@@ -92,7 +100,7 @@ OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *we
         z[i] = step[i] = left[i] / (middle * coupling->diagonal[i]);
     }
     for (int k = 1; k < STEPS; k++) {
-        OST_TRY(ost_coupling_mass(coupling, z, product));
+        OST_TRY(multiply(coupling, coupling->estimate, z, product));
         const double next = 1.0 / (2.0 * middle / half - rho);
         for (size_t i = 0; i < n; i++) {
             step[i] = next * rho * step[i] + 2.0 * next / half * (left[i] - product[i]) / coupling->diagonal[i];

@@ -21,9 +21,10 @@ typedef struct OstCoupling {
     OstLocal *mass_start; /* rows + 1: M */
     OstLocal *mass_column;
     double *mass;
-    double *diagonal;  /* of M: rows */
+    double *estimate;  /* as M, or M itself: times schur it is about the Schur complement B A^-1 B' + C */
+    double *diagonal;  /* of the estimate: rows */
     double *looseness; /* rows */
-    double *schur;     /* rows: B A^-1 B' + C is about this times M */
+    double *schur;     /* rows */
     OstHalo *halo;     /* over pressures; the mesh's numbering has it: not owned */
 } OstCoupling;
 
@@ -40,9 +41,9 @@ OstStatus ost_coupling_transpose(const OstCoupling *coupling, double *p, double 
 OstStatus ost_coupling_mass(const OstCoupling *coupling, double *p, double *y);
 OstStatus ost_coupling_give_way(const OstCoupling *coupling, double *p, double *y);
 
-/* Collective over neighbours. z = S^-1 r about, S = schur × H M H, H with 1 / weights on its diagonal (NULL: 1): a few
- * Chebyshev steps from the diagonal, a fixed, symmetric and positive definite operator. z has room for `columns`
- * numbers; `work` for 3 × rows. */
+/* Collective over neighbours. z = S^-1 r about, S = schur × H E H, E the estimate, H with 1 / weights on its diagonal
+ * (NULL: 1): a few Chebyshev steps from the diagonal, a fixed, symmetric and positive definite operator. z has room for
+ * `columns` numbers; `work` for 3 × rows. */
 OstStatus ost_coupling_schur_solve(const OstCoupling *coupling, const double *weights, const double *r, double *z,
                                    double *work);
 

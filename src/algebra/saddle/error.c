@@ -73,9 +73,10 @@ static OstStatus accept(void *data, const double *u, double error, double *next)
 }
 
 OstStatus ost_saddle_iterated_error(const OstCgSystem *system, const OstPreconditioner *preconditioner,
-                                    const OstSaddle *saddle, double missing, const double *r_u, double *e_u, int *found)
+                                    const OstSaddle *saddle, double scale, double missing, const double *r_u,
+                                    double *e_u, int *found)
 {
-    OstGoal goal = {.ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1};
+    OstGoal goal = {.ctx = system->matrix->ctx, .most_iterations = MOST_STEPS, .crude = 1, .scale = scale};
     const OstErrorStop stop = {.ask = accept, .data = &goal, .first = missing, .relative = 1};
     OstSolveReport report = {0};
     goal.stop = &stop;

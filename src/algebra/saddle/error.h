@@ -11,9 +11,9 @@ OstStatus ost_saddle_error(const OstCgSystem *system, const OstPreconditioner *p
                            double scale, const double *r_u, double *e_u);
 
 /* Collective. The same by the iteration of ost_saddle_solve, until so large a part of it is missing, in the norm of the
- * energy. e_u and saddle->p are 0 on entry. *found: 0 if that fails. */
+ * energy. `scale` as above, or 0. e_u and saddle->p are 0 on entry. *found: 0 if that fails. */
 OstStatus ost_saddle_iterated_error(const OstCgSystem *system, const OstPreconditioner *preconditioner,
-                                    const OstSaddle *saddle, double missing, const double *r_u, double *e_u,
-                                    int *found);
+                                    const OstSaddle *saddle, double scale, double missing, const double *r_u,
+                                    double *e_u, int *found);
 
 #endif

@@ -89,7 +89,7 @@ static void add_row(Finder *finder, OstLocal i, Part *part)
             finder->force[3 * (size_t)coupling->column[k] + (size_t)c] += coupling->value[3 * (size_t)k + (size_t)c];
     for (OstLocal k = i < coupling->rows ? coupling->mass_start[i] : 0;
          i < coupling->rows && k < coupling->mass_start[i + 1]; k++) {
-        part->mass += coupling->schur[i] * coupling->mass[k];
+        part->mass += coupling->schur[i] * coupling->estimate[k];
         part->loose += coupling->looseness[i] * coupling->mass[k];
     }
 }

@@ -99,8 +99,9 @@ static void enlarge_by(OstSaddleRun *run, double larger)
     ost_log(run->ctx, OST_LOG_VERBOSE, "solver: the preconditioner is scaled by %.3g", run->tau);
 }
 
-/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N proves not to be positive definite
- * (*again). A z.u that has been carried along is no longer N^-1 r to the last digit, and proves nothing. */
+/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N is next to indefinite (*again: 1), or
+ * proves not to be positive definite (2). A z.u that has been carried along is no longer N^-1 r to the last digit, and
+ * proves nothing. */
 static OstStatus complete(OstSaddleRun *run, int *again)
 {
     double sums[SUMS];
@@ -117,7 +118,7 @@ static OstStatus complete(OstSaddleRun *run, int *again)
         enlarge_by(run, larger);
         sums[SUM_AZ] *= larger * larger;
         sums[SUM_RZ] *= larger;
-        *again = 1;
+        *again = larger > margin ? 2 : 1;
     }
     for (size_t i = 0; i < run->m; i++)
         run->q[i] = run->bz[i] - run->r.p[i];
@@ -177,7 +178,7 @@ static OstStatus judge_error(OstSaddleRun *run)
 {
     OstGoal *goal = run->goal;
     OstAlgebraicError *error = &goal->error;
-    if (!goal->stop || run->passes > 0)
+    if (!goal->stop || run->passes > 0 || run->lanczos.count == 0)
         return OST_SUCCESS;
     ost_algebraic_error(&run->lanczos, error);
     goal->rate = ost_algebraic_error_rate(&run->lanczos, error);
@@ -223,6 +224,10 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
             run->begun = run->weight / (run->tau * run->tau);
         if (*broken)
             return OST_SUCCESS;
+        if (again < 2) /* else the iteration did not see all of the error */
+            OST_TRY(judge_error(run));
+        if (goal->enough)
+            return OST_SUCCESS;
         if (again && run->passes == 0)
             run->lanczos.count = 0; /* of another operator */
         OST_TRY(turn(run, first || again ? 0.0 : run->weight / before, &curvature));
@@ -246,9 +251,6 @@ static OstStatus iterate(OstSaddleRun *run, int *broken)
                      goal->convergence.count, 1.0 / run->tau);
             return OST_SUCCESS;
         }
-        OST_TRY(judge_error(run));
-        if (goal->enough)
-            return OST_SUCCESS;
         OST_TRY(renew(run, 0));
     }
 }
@@ -455,7 +457,7 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
                            const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
     OstSaddleRun run = ost_saddle_run_of(system, preconditioner, saddle, f, u, goal);
-    run.tau = margin / (preconditioner->factors ? 1.0 : first_eigenvalue);
+    run.tau = fmax(margin / (preconditioner->factors ? 1.0 : first_eigenvalue), goal->scale);
     run.beyond = beyond;
     goal->end = OST_END_REACHED;
     if (goal->start == 0.0)

@@ -123,11 +123,45 @@ static int pair_of(int v, int w)
     return v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v);
 }
 
+/* Has a tet no node that can move? */
+static int is_held(const OstSystem *system, const OstLocal *nodes)
+{
+    for (int a = 0; a < NODES; a++)
+        if (system->row_of_node[nodes[a]] >= 0)
+            return 0;
+    return 1;
+}
+
+static int any_is_held(const OstPressureSpace *space, const OstSystem *system)
+{
+    const OstMesh *mesh = space->mesh;
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
+        if (space->of_tet[VERTICES * (size_t)tet] >= 0 && is_held(system, ost_mesh_nodes_of(mesh, tet)))
+            return 1;
+    return 0;
+}
+
+/* Adds a tet's part of a row of M. What is held changes no volume, and has but C in the Schur complement. */
+static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal *pressures, int held,
+                     OstCoupling *coupling)
+{
+    const OstLocal row = pressures[v];
+    const double share = held ? coupling->looseness[row] / coupling->schur[row] : 1.0;
+    for (int w = 0; w < VERTICES; w++) {
+        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
+        const double mass = of_tet->mass[pair_of(v, w)][slot];
+        coupling->mass[k] += mass;
+        if (coupling->estimate != coupling->mass)
+            coupling->estimate[k] += share * mass;
+    }
+}
+
 /* Adds B's part of a tet, and M's. */
 static void add_tet(const OstPressureSpace *space, const OstSystem *system, const OstBatch *batch, int slot,
                     const TetCoupling *of_tet, int with_mass, OstCoupling *coupling)
 {
     const OstLocal *pressures = space->of_tet + VERTICES * (size_t)batch->tet[slot];
+    const int held = with_mass && is_held(system, batch->node[slot]);
     for (int v = 0; v < VERTICES && pressures[v] >= 0; v++) {
         const OstLocal row = pressures[v];
         for (int a = 0; a < NODES; a++) {
@@ -138,10 +172,8 @@ static void add_tet(const OstPressureSpace *space, const OstSystem *system, cons
             for (int i = 0; i < 3; i++)
                 value[i] += of_tet->columns[3 * NODES * v + 3 * a + i][slot];
         }
-        for (int w = 0; w < VERTICES && row < coupling->rows && with_mass; w++) {
-            coupling->mass[find(coupling->mass_start, coupling->mass_column, row, pressures[w])] +=
-                of_tet->mass[pair_of(v, w)][slot];
-        }
+        if (with_mass && row < coupling->rows)
+            add_mass(slot, of_tet, v, pressures, held, coupling);
     }
 }
 
@@ -183,12 +215,22 @@ static void project(const OstSystem *system, OstCoupling *coupling)
 }
 
 /* What the mass is multiplied by. */
-static void scale_mass(const OstPressureSpace *space, const OstMaterialField *field, OstCoupling *coupling)
+static void find_scales(const OstPressureSpace *space, const OstMaterialField *field, OstCoupling *coupling)
 {
     for (OstLocal row = 0; row < coupling->rows; row++) {
-        coupling->diagonal[row] = coupling->mass[find(coupling->mass_start, coupling->mass_column, row, row)];
         coupling->looseness[row] = field->mixed.looseness[space->region[row]];
         coupling->schur[row] = ost_field_giving_way(field, space->region[row]);
+    }
+}
+
+/* A pressure that nothing depends on is alone. */
+static void find_diagonal(OstCoupling *coupling)
+{
+    for (OstLocal row = 0; row < coupling->rows; row++) {
+        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, row);
+        if (coupling->estimate[k] == 0.0)
+            coupling->estimate[k] = coupling->mass[k];
+        coupling->diagonal[row] = coupling->estimate[k];
     }
 }
 
@@ -214,9 +256,13 @@ static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system
     OST_TRY_DONE(OST_NEW(ctx, &coupling->diagonal, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->looseness, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->schur, space->owned));
+    coupling->estimate = coupling->mass;
+    if (any_is_held(space, system))
+        OST_TRY_DONE(OST_NEW(ctx, &coupling->estimate, coupling->mass_start[space->owned]));
+    find_scales(space, field, coupling);
     add_tets(space, system, field, NULL, 1, coupling);
     project(system, coupling);
-    scale_mass(space, field, coupling);
+    find_diagonal(coupling);
 done:
     OST_FREE(tets.start);
     OST_FREE(tets.tet);
