@@ -13,8 +13,8 @@ int ost_is_nearly_incompressible(const OstProblem *problem);
  * stiffest edge. It is 1 to 1.2 in meshes that follow the axes, and for isotropic bodies. */
 OstStatus ost_stiff_directions_cross(const OstProblem *problem, int *cross);
 
-/* Collective. Do most vertices lie at the surface, as in plates and walls of one to three layers of tets, which bend as
- * if they were stiffer? `edges`: those that are this rank's. */
+/* Collective. Do more than 45 % of the vertices lie at the surface, as in plates and walls of up to three layers of
+ * tets, which bend as if they were stiffer, and in any coarse body? `edges`: those that are this rank's. */
 OstStatus ost_has_few_layers(const OstMesh *mesh, OstLocal edges, int *few);
 
 #endif

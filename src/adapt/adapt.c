@@ -40,8 +40,8 @@ static const double far_beyond = 100.0, small_error = 0.02, patience = 60.0;
 static const double safety_of_measured = 0.9, aim_of_measured = 0.75;
 
 /* Errors that are more alike than this say little by their difference; volumes may change by such a part of what the
- * energy does; no estimate is trusted to have missed more. */
-static const double most_alike = 0.9, flat = 0.05, most_missed = 2.0;
+ * energy does; what contradicts the estimates by more is no measure of them. */
+static const double most_alike = 0.9, flat = 0.05, least_missed = 0.7, most_missed = 2.0;
 
 /* --- limits --- */
 
@@ -117,7 +117,8 @@ static double find_missed(const OstAdaption *adaption)
     const double fell = 2.0 * (before->potential - last->potential), of_size = fell / fabs(last->potential);
     if (!(e <= most_alike * old) || !(fell > 0.0) || fabs(last->volume / before->volume - 1.0) > flat * of_size)
         return 0.0;
-    return fmin(sqrt(fell / (old * old - e * e)), most_missed);
+    const double missed = sqrt(fell / (old * old - e * e));
+    return missed >= least_missed && missed <= most_missed ? missed : 0.0;
 }
 
 static void add_missed(OstAdaption *adaption, OstStage *stage)
@@ -127,7 +128,8 @@ static void add_missed(OstAdaption *adaption, OstStage *stage)
     last->is_measured = missed > 0.0;
     last->missed = stage->missed = fmax(missed, 1.0);
     last->error.energy_norm *= last->missed;
-    last->relative_error = adaption->watch ? last->relative_error : fmin(last->missed * last->relative_error, 1.0);
+    last->error.relative = fmin(last->missed * last->error.relative, 1.0);
+    last->relative_error = adaption->watch ? last->relative_error : last->error.relative;
 }
 
 /* The rate of the last two levels of one order, not below the share of that of smooth solutions, which is taken where

@@ -103,9 +103,8 @@ json_t *ost_adaption_json(const OstAdaption *adaption)
                       (json_int_t)level->tets, "unknowns", (json_int_t)level->unknowns, "iterations", level->iterations,
                       "relative_error", level->error.known ? ost_json_number(level->relative_error) : json_null(),
                       "energy_norm_error", level->error.known ? ost_json_number(level->error.energy_norm) : json_null(),
-                      "missed", level->is_measured ? ost_json_number(level->missed) : json_null(),
-                      "strain_energy", ost_json_number(level->strain_energy), "seconds", level->seconds, "bytes",
-                      level->bytes));
+                      "missed", level->is_measured ? ost_json_number(level->missed) : json_null(), "strain_energy",
+                      ost_json_number(level->strain_energy), "seconds", level->seconds, "bytes", level->bytes));
     }
     return json_pack("{s:f, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "asked", adaption->request, "of",
                      adaption->watch ? adaption->watch->name : "energy", "end", end_name[adaption->end], "met",

@@ -60,6 +60,16 @@ static void list_numbers(const OstCase *c, const OstCaseMaterial *material, List
             add(list, "the field ", ost_output_field(fields[f]).word, "");
 }
 
+/* Does the envelope of load cases need a criterion, or a watched load factor? */
+static int is_watched(const OstCase *c, int criterion)
+{
+    int any = c->envelope;
+    for (int w = 0; w < c->watch_count; w++)
+        any |= c->watches[w].kind == OST_WATCH_LOAD_FACTOR &&
+               (c->watches[w].component == criterion || c->watches[w].component == OST_CRITERIA);
+    return any;
+}
+
 /* Strengths are rounded by who writes them: what makes no hundredth of a load factor is no difference. */
 static void list_criteria(const OstCase *c, const OstCaseMaterial *material, List *list)
 {
@@ -68,7 +78,7 @@ static void list_criteria(const OstCase *c, const OstCaseMaterial *material, Lis
     const int axis = material->axes.single - 1;
     for (int k = 0; strength->known && !material->material.isotropic && k < OST_CRITERIA; k++) {
         const double even = ost_criterion_even_shear(strength, (OstCriterion)k, axis);
-        if ((c->output_fields >> (OST_FIELD_TSAI_WU + k) & 1U) &&
+        if ((c->output_fields >> (OST_FIELD_TSAI_WU + k) & 1U || is_watched(c, k)) &&
             !(fabs(strength->shear[(axis + 1) % 3] - even) <= rounded * even))
             add(list, "", ost_output_field((OstOutputFieldBit)(OST_FIELD_TSAI_WU + k)).word, "");
     }

@@ -227,6 +227,7 @@ OstStatus ost_case_pick(OstCase **c, const char *name)
         if (strcmp(load_case->name, name) == 0) {
             *c = load_case->c;
             load_case->c = NULL;
+            (*c)->envelope = 0;
             ost_case_destroy(&whole);
             return OST_SUCCESS;
         }

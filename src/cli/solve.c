@@ -12,7 +12,7 @@
 #include "output/summary.h"
 #include "problem/scene_data.h"
 #include "study/cases/solve_cases.h"
-#include "study/forecast/forecast.h"
+#include "study/forecast/show.h"
 #include "study/watch.h"
 
 #include <math.h>
@@ -180,22 +180,11 @@ static OstStatus check_files(const Run *run)
     return ost_check_probe_outputs(run->c, run->output, json);
 }
 
-/* For those who wait. */
-static OstStatus foretell(const OstScene *scene)
-{
-    OstRates rates;
-    OstForecast forecast;
-    OST_TRY(ost_rates_load(scene->ctx, &rates));
-    ost_forecast_make(scene->c, &scene->plan, &rates, ost_size(scene->ctx), &forecast);
-    ost_progress_expect(scene->ctx, forecast.in_all);
-    return OST_SUCCESS;
-}
-
 static OstStatus solve_as_given(Run *run)
 {
     const OstCase *c = run->c;
     OST_TRY(ost_scene_create(c, &run->scene));
-    OST_TRY(foretell(run->scene));
+    OST_TRY(ost_forecast_show(run->scene));
     OST_TRY(ost_watch_check(run->scene));
     if (!ost_plan_acts(c, &run->scene->plan))
         ost_warn(c->ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);

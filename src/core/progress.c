@@ -216,6 +216,8 @@ void ost_progress_batch(OstContext *ctx, int count)
 {
     ctx->batch =
         (OstProgressBatch){ctx->task_done, count, ost_seconds(), ctx->expected_once + ctx->expected_each * count};
+    if (count == 0 && ctx->task_count > 0) /* what a batch seemed to have done, it has not */
+        ctx->task.fraction = (double)ctx->task_done / ctx->task_count;
 }
 
 void ost_progress(OstContext *ctx, const char *what, double fraction)

@@ -52,9 +52,11 @@ static OstLocal rows(const OstMesh *mesh, Part part)
     return part == DISPLACEMENT ? mesh->node_count : mesh->owned_tets;
 }
 
-static int is_more(Part part, double value, double than)
+/* Of values that only rounding tells apart, as those of mirrored loads, the one of the first load case counts. */
+static int is_more(Part part, double value, int number, double than, int of)
 {
-    return part < FACTORS ? value > than : value < than;
+    const double alike = 1e-9 * fabs(than), more = part < FACTORS ? value - than : than - value;
+    return !isfinite(than) || of == 0 ? more > 0.0 : number < of ? more >= -alike : more > alike;
 }
 
 static OstStatus begin(OstContext *ctx, const OstMesh *mesh, Part part, int cases, Extremes *extremes)
@@ -112,7 +114,7 @@ static OstStatus take_part(const OstResult *result, Part part, int number, Extre
     for (OstLocal i = 0; extremes->value && i < rows(result->mesh, part); i++) {
         double value;
         OST_TRY(value_of(result, part, i, &value));
-        if (!is_more(part, value, extremes->value[i]))
+        if (!is_more(part, value, number + 1, extremes->value[i], extremes->governing[i]))
             continue;
         extremes->value[i] = value;
         extremes->governing[i] = number + 1;

@@ -75,18 +75,17 @@ static OstStatus find_residuals(Search *search)
     return ost_system_take_rows(problem->system, search->load, search->r_u);
 }
 
-/* `missing`: of the error, as in ost_solver_error. */
-static OstStatus measure(Search *search, double missing, OstErrors *errors)
+/* `missing`: of the error, as in ost_solver_error. Where none is found `errors` stays as it is. */
+static OstStatus measure(Search *search, double missing, OstErrors *errors, int *found)
 {
     const OstProblem *problem = search->problem;
     const OstSaddle saddle = {problem->coupling, search->r_p, search->e_p};
     OstMaterialField field;
     OstProblem of_error;
-    int found;
     memset(search->e_u, 0, 3 * (size_t)problem->system->matrix->rows * sizeof *search->e_u);
     memset(search->e_p, 0, (size_t)problem->pressures->count * sizeof *search->e_p);
-    OST_TRY(ost_solver_mixed_error(search->solver, missing, &saddle, search->r_u, search->e_u, &found));
-    if (!found)
+    OST_TRY(ost_solver_mixed_error(search->solver, missing, &saddle, search->r_u, search->e_u, found));
+    if (!*found)
         return OST_SUCCESS;
     OST_TRY(ost_pressure_complete(problem->pressures, search->e_p));
     ost_pressure_of_tets(problem->pressures, search->e_p, search->of_tets);
@@ -127,11 +126,13 @@ static void take_correction(const Search *search)
 static OstStatus correct(Search *search, OstErrors *errors)
 {
     double before = INFINITY;
-    for (int k = 0; k < MOST_CORRECTIONS && largest(errors) > small_error && largest(errors) < 0.5 * before; k++) {
+    int found = 1;
+    for (int k = 0; found && k < MOST_CORRECTIONS && largest(errors) > small_error && largest(errors) < 0.5 * before;
+         k++) {
         before = largest(errors);
         take_correction(search);
         OST_TRY(find_residuals(search));
-        OST_TRY(measure(search, part, errors));
+        OST_TRY(measure(search, part, errors, &found));
     }
     errors->corrected = errors->known;
     return OST_SUCCESS;
@@ -151,7 +152,8 @@ static int is_rough(const OstErrors *errors, const OstSolveReport *report)
 /* After an early stop, which goes on where this is too large. */
 static OstStatus measure_once(Search *search, OstErrors *errors)
 {
-    OST_TRY(measure(search, ost_solver_mixed_is_poor(search->solver) ? part : 1.0, errors));
+    int found;
+    OST_TRY(measure(search, ost_solver_mixed_is_poor(search->solver) ? part : 1.0, errors, &found));
     errors->reaction *= forces_caution;
     errors->stress *= forces_caution;
     return OST_SUCCESS;
@@ -161,9 +163,12 @@ static OstStatus measure_all(Search *search, OstErrors *errors)
 {
     const OstSolveReport *report = search->solved->report;
     double caution = once_caution;
-    OST_TRY(measure(search, 1.0, errors));
-    if (is_rough(errors, report)) {
-        OST_TRY(measure(search, part, errors));
+    int found;
+    OST_TRY(measure(search, 1.0, errors, &found));
+    const int is_to_iterate = is_rough(errors, report);
+    if (is_to_iterate)
+        OST_TRY(measure(search, part, errors, &found));
+    if (is_to_iterate && found) {
         if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
             (report->rounding_limited || report->relative_residual <= large_residual))
             OST_TRY(correct(search, errors));

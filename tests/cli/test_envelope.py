@@ -75,6 +75,22 @@ write(folder, "far.yaml", CASE.replace("title: a bar", "solver: {method: metric,
 failed = run("solve", "far.yaml", "--json", "far.json", folder=folder)
 check(failed.exit_code == 1 and "envelope of 1 load case, " in failed.output, failed.output)
 check("nothing fails" in failed.output, failed.output)
+write(folder, "none.yaml", CASE.replace("title: a bar", "solver: {method: metric, coarsest_unknowns: 60, max_iterations: 1}")
+      .replace("bar.vtkhdf", "none.vtkhdf"))
+failed = run("solve", "none.yaml", "--json", "none.json", folder=folder)
+check(failed.exit_code == 1 and "envelope of" not in failed.output, failed.output)
+check(not os.path.exists(os.path.join(folder, "none_envelope.vtkhdf")), os.listdir(folder))
+
+# --- mirrored loads differ by rounding alone: the first governs ---
+write(folder, "mirror.yaml", CASE.replace("[-2.5, 0, 0]", "[-2, 0, 0]").replace("bar.vtkhdf", "mirror.vtkhdf"))
+for ranks in fewer((1, 2)):
+    run("solve", "mirror.yaml", "--json", "mirror.json", ranks=ranks, folder=folder)
+    governs = read_json(folder, "mirror.json")["envelope"]["fields"]["largest_von_mises"]["governs"]
+    check(governs["pull"] > 0 and governs["push"] == 0, governs)
+
+# --- one of them alone has none, and makes none ---
+run("solve", "mirror.yaml", "--case", "bend", "-o", "alone.vtkhdf", folder=folder)
+check(not os.path.exists(os.path.join(folder, "alone_envelope.vtkhdf")), os.listdir(folder))
 
 for change, words in ((("cases:", "caseless:"), "unknown key 'caseless'"),
                       ((CASE[CASE.index("cases:"):], ""), "an envelope is of load cases, and there are none"),

@@ -124,7 +124,7 @@ static int pair_of(int v, int w)
 }
 
 /* Has a tet no node that can move? */
-static int is_held(const OstSystem *system, const OstLocal *nodes)
+static int has_no_free_node(const OstSystem *system, const OstLocal *nodes)
 {
     for (int a = 0; a < NODES; a++)
         if (system->row_of_node[nodes[a]] >= 0)
@@ -132,21 +132,22 @@ static int is_held(const OstSystem *system, const OstLocal *nodes)
     return 1;
 }
 
-static int any_is_held(const OstPressureSpace *space, const OstSystem *system)
+static int any_has_no_free_node(const OstPressureSpace *space, const OstSystem *system)
 {
     const OstMesh *mesh = space->mesh;
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
-        if (space->of_tet[VERTICES * (size_t)tet] >= 0 && is_held(system, ost_mesh_nodes_of(mesh, tet)))
+        if (space->of_tet[VERTICES * (size_t)tet] >= 0 && has_no_free_node(system, ost_mesh_nodes_of(mesh, tet)))
             return 1;
     return 0;
 }
 
-/* Adds a tet's part of a row of M. What is held changes no volume, and has but C in the Schur complement. */
-static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal *pressures, int held,
+/* Adds a tet's part of a row of M. A tet without a free node changes no volume: of the Schur complement it has C alone.
+ */
+static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal *pressures, int is_fixed,
                      OstCoupling *coupling)
 {
     const OstLocal row = pressures[v];
-    const double share = held ? coupling->looseness[row] / coupling->schur[row] : 1.0;
+    const double share = is_fixed ? coupling->looseness[row] / coupling->schur[row] : 1.0;
     for (int w = 0; w < VERTICES; w++) {
         const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
         const double mass = of_tet->mass[pair_of(v, w)][slot];
@@ -161,7 +162,7 @@ static void add_tet(const OstPressureSpace *space, const OstSystem *system, cons
                     const TetCoupling *of_tet, int with_mass, OstCoupling *coupling)
 {
     const OstLocal *pressures = space->of_tet + VERTICES * (size_t)batch->tet[slot];
-    const int held = with_mass && is_held(system, batch->node[slot]);
+    const int held = with_mass && has_no_free_node(system, batch->node[slot]);
     for (int v = 0; v < VERTICES && pressures[v] >= 0; v++) {
         const OstLocal row = pressures[v];
         for (int a = 0; a < NODES; a++) {
@@ -257,7 +258,7 @@ static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system
     OST_TRY_DONE(OST_NEW(ctx, &coupling->looseness, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->schur, space->owned));
     coupling->estimate = coupling->mass;
-    if (any_is_held(space, system))
+    if (any_has_no_free_node(space, system))
         OST_TRY_DONE(OST_NEW(ctx, &coupling->estimate, coupling->mass_start[space->owned]));
     find_scales(space, field, coupling);
     add_tets(space, system, field, NULL, 1, coupling);

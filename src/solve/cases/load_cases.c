@@ -176,11 +176,10 @@ static int choose_company(const OstLoadCases *cases, int most, unsigned fields, 
 
 /* Solves the next case with others, where that pays. Those that do not come through are solved alone in their turn: so
  * no failure here is the case's. */
-static OstStatus solve_in_company(OstLoadCases *cases, unsigned fields)
+static OstStatus solve_in_company(OstLoadCases *cases, int most, unsigned fields)
 {
     OstCompanion companion[OST_MOST_TOGETHER];
-    int number[OST_MOST_TOGETHER], most;
-    OST_TRY(ost_company_most(cases->ctx, &most));
+    int number[OST_MOST_TOGETHER];
     const int count = choose_company(cases, most, fields, companion, number);
     if (count < OST_FEWEST_COLUMNS)
         return OST_SUCCESS;
@@ -196,14 +195,15 @@ static OstStatus solve_in_company(OstLoadCases *cases, unsigned fields)
 /* Solves the next case ahead, with others, where that pays. */
 static OstStatus solve_ahead(OstLoadCases *cases, unsigned fields)
 {
-    int count = 0;
-    for (int k = 0; k < cases->count && count < OST_MOST_TOGETHER; k++)
+    int most, count = 0;
+    OST_TRY(ost_company_most(cases->ctx, &most));
+    for (int k = cases->next; k < cases->count && count < most; k++)
         count += is_alike(cases, k);
     ost_progress_batch(cases->ctx, count);
     OstStatus status = make_problem(cases);
     OST_THEN(ost_analysis_make_common(cases->analysis, fields));
     if (status == OST_SUCCESS && ost_company_suits(cases->analysis))
-        status = solve_in_company(cases, fields);
+        status = solve_in_company(cases, most, fields);
     if (!cases->ahead[cases->next].result)
         ost_progress_batch(cases->ctx, 0);
     return status;

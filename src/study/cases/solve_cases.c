@@ -10,7 +10,7 @@
 #include "output/load_case_files.h"
 #include "output/probe_files.h"
 #include "problem/scene_data.h"
-#include "study/forecast/forecast.h"
+#include "study/forecast/show.h"
 #include "study/watch.h"
 
 #include <stdio.h>
@@ -212,26 +212,6 @@ static OstStatus raise_failures(const Run *run)
                      run->how->keeps ? "" : ", and nothing of them was written", text);
 }
 
-/* One that is solved with others takes about this share of what it takes alone: 0.28 of linear tets, 0.3 of quadratic
- * ones (six cases of a beam of 265,000 unknowns). */
-static const double share_in_company = 0.3;
-
-/* For those who wait. */
-static OstStatus foretell(const OstScene *scene)
-{
-    OstRates rates;
-    OstForecast forecast;
-    OST_TRY(ost_rates_load(scene->ctx, &rates));
-    ost_forecast_make(scene->c, &scene->plan, &rates, ost_size(scene->ctx), &forecast);
-    const double alone =
-        forecast.seconds[OST_STAGE_SOLVE] + forecast.seconds[OST_STAGE_ESTIMATE] + forecast.seconds[OST_STAGE_REST];
-    ost_progress_expect_batch(scene->ctx,
-                              forecast.seconds[OST_STAGE_ASSEMBLY] + forecast.seconds[OST_STAGE_SETUP] +
-                                  (1.0 - share_in_company) * alone,
-                              share_in_company * alone);
-    return OST_SUCCESS;
-}
-
 OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
 {
     Run run = {.ctx = c->ctx, .c = c, .how = how};
@@ -241,7 +221,7 @@ OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
         run.report[k].name = c->load_cases[k].name;
     }
     OST_THEN(ost_scene_create(c, &run.scene));
-    OST_THEN(foretell(run.scene));
+    OST_THEN(ost_forecast_show(run.scene));
     if (c->envelope)
         OST_THEN(ost_envelope_create(c, ost_scene_mesh(run.scene), &run.envelope));
     OST_THEN(solve_all(&run));

@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "orthostat/load_cases.h"
+#include "study/forecast/show.h"
 #include "study/watch.h"
 
 #include <math.h>
@@ -159,6 +160,7 @@ static OstStatus solve_together(OstSweep *sweep, const OstCase *c, int first)
     OstScene *scene = NULL;
     OstLoadCases *cases = NULL;
     OstStatus status = ost_scene_create(c, &scene);
+    OST_THEN(ost_forecast_show(scene));
     OST_THEN(ost_load_cases_create(scene, &cases));
     for (int k = 0; k < c->load_case_count && status == OST_SUCCESS; k++)
         status = ost_watch_check(ost_load_cases_scene(cases, k));
