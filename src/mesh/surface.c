@@ -13,7 +13,7 @@ void ost_surface_destroy(OstSurface **surface)
 
 /* A face of a tet, in the list of its lowest vertex. */
 typedef struct Face {
-    OstLocal middle, high; /* its other vertices */
+    uint64_t others; /* its middle and highest vertex */
     OstLocal tet;
     int8_t opposite; /* the tet's vertex that it lacks */
     int8_t turn;     /* seen from outside the tet its vertices ascend counter-clockwise (1) or clockwise (-1) */
@@ -26,26 +26,35 @@ typedef struct FaceTable {
     Face *face;
 } FaceTable;
 
+static OstLocal lowest_of(const OstLocal *tet, int opposite)
+{
+    const int *corner = ost_tet_face[opposite];
+    const OstLocal low = tet[corner[0]] < tet[corner[1]] ? tet[corner[0]] : tet[corner[1]];
+    return tet[corner[2]] < low ? tet[corner[2]] : low;
+}
+
+/* Without a branch, which would often be foretold wrongly. */
+static void sort_two(OstLocal *low, OstLocal *high, int *swaps)
+{
+    const OstLocal a = *low, b = *high;
+    *swaps += a > b;
+    *low = a < b ? a : b;
+    *high = a < b ? b : a;
+}
+
 /* Vertices in ascending order; the number of swaps decides the turn. */
 static OstLocal sort_face(const OstLocal *tet, int opposite, Face *face)
 {
-    OstLocal v[3];
-    face->turn = 1;
-    for (int i = 0; i < 3; i++)
-        v[i] = tet[ost_tet_face[opposite][i]];
-    for (int pass = 0; pass < 3; pass++) {
-        const int i = pass % 2;
-        if (v[i] > v[i + 1]) {
-            const OstLocal larger = v[i];
-            v[i] = v[i + 1];
-            v[i + 1] = larger;
-            face->turn = (int8_t)-face->turn;
-        }
-    }
-    face->middle = v[1];
-    face->high = v[2];
+    const int *corner = ost_tet_face[opposite];
+    OstLocal low = tet[corner[0]], middle = tet[corner[1]], high = tet[corner[2]];
+    int swaps = 0;
+    sort_two(&low, &middle, &swaps);
+    sort_two(&middle, &high, &swaps);
+    sort_two(&low, &middle, &swaps);
+    face->others = (uint64_t)middle << 32 | (uint64_t)high;
     face->opposite = (int8_t)opposite;
-    return v[0];
+    face->turn = swaps % 2 ? -1 : 1;
+    return low;
 }
 
 static void write_face(const OstLocal *tet, int opposite, int nodes_per_face, OstLocal *nodes)
@@ -91,14 +100,14 @@ static OstStatus list_faces(const OstMesh *mesh, const unsigned char *marked, Fa
     table->rows = mesh->node_count;
     OST_TRY(OST_NEW(mesh->ctx, &table->start, (size_t)table->rows + 2));
     OstGlobal *next = table->start + 1; /* offset by one: filling the lists moves each start to its place */
-    Face face = {0};
     for (OstLocal t = 0; t < mesh->tet_count; t++)
         for (int o = 0; o < 4 && has_three(marked, ost_mesh_nodes_of(mesh, t)); o++)
             if (is_wanted(mesh, marked, ost_mesh_nodes_of(mesh, t), o))
-                next[sort_face(ost_mesh_nodes_of(mesh, t), o, &face) + 1]++;
+                next[lowest_of(ost_mesh_nodes_of(mesh, t), o) + 1]++;
     for (OstLocal n = 0; n < table->rows; n++)
         next[n + 1] += next[n];
     OST_TRY(OST_NEW(mesh->ctx, &table->face, next[table->rows]));
+    Face face = {0};
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         for (int o = 0; o < 4 && has_three(marked, ost_mesh_nodes_of(mesh, t)); o++) {
             if (!is_wanted(mesh, marked, ost_mesh_nodes_of(mesh, t), o))
@@ -109,11 +118,6 @@ static OstStatus list_faces(const OstMesh *mesh, const unsigned char *marked, Fa
         }
     }
     return OST_SUCCESS;
-}
-
-static int are_twins(const Face *a, const Face *b)
-{
-    return a->middle == b->middle && a->high == b->high;
 }
 
 static OstStatus raise_twins(const OstMesh *mesh, const Face *a, const Face *b)
@@ -131,18 +135,19 @@ static OstStatus check_twins(const OstMesh *mesh, const Face *a, const Face *b)
     return a->twins > 1 || b->twins > 1 || a->turn == b->turn ? raise_twins(mesh, a, b) : OST_SUCCESS;
 }
 
-/* Two tets meet in an inner face, from opposite sides. */
+/* Two tets meet in an inner face, from opposite sides. A third one is found from the second. */
 static OstStatus match_faces(const OstMesh *mesh, FaceTable *table)
 {
     for (OstLocal n = 0; n < table->rows; n++) {
         Face *end = table->face + table->start[n + 1];
         for (Face *a = table->face + table->start[n]; a < end; a++) {
             for (Face *b = a + 1; b < end; b++) {
-                if (!are_twins(a, b))
+                if (a->others != b->others)
                     continue;
                 a->twins++;
                 b->twins++;
                 OST_TRY(check_twins(mesh, a, b));
+                break;
             }
         }
     }

@@ -16,6 +16,7 @@ typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
 typedef float Kept __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16))); /* in memory */
 typedef float Part __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(float))));     /* of a batch */
 typedef float Four __attribute__((vector_size(4 * sizeof(float)), may_alias));
+typedef float Row __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16), may_alias)); /* of a block */
 typedef double Wide __attribute__((vector_size(4 * sizeof(double)), aligned(16), may_alias));
 
 /* Eight tets; those that only fill the last ones up have no volume. */
@@ -81,6 +82,16 @@ static inline void transpose_back(const Eight in[3], Four row[WIDTH])
     }
 }
 
+/* The other way, of six numbers: each row has a zero after the third and the sixth. */
+static inline void transpose_six_back(const Eight in[6], Eight row[WIDTH])
+{
+    Four low[WIDTH], high[WIDTH];
+    transpose_back(in, low);
+    transpose_back(in + 3, high);
+    for (int k = 0; k < WIDTH; k++)
+        row[k] = __builtin_shufflevector(low[k], high[k], 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
 /* Function k of a tet: an edge's, or a face's. */
 static inline OstLocal function_of(const OstLightTets *tets, const Eights *eights, int slot, int k)
 {
@@ -120,13 +131,19 @@ static inline void open_linear(const Eights *eights, const Kept *elastic, int by
     tet->elastic = elastic;
     tet->by_stretch = by_stretch;
     tet->volume = eights->volume;
-    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
+        for (int v = 1; v < 4; v++)
+            tet->gradient[v][i] = eights->gradient[v - 1][i];
         tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
-    memcpy(tet->along, tet->gradient, sizeof tet->along);
-    for (int v = 0; v < 4 && by_stretch; v++) {
+    }
+    for (int v = 0; v < 4; v++) {
         const Kept *a = elastic;
         const Eight *g = tet->gradient[v];
+        if (!by_stretch) {
+            for (int i = 0; i < 3; i++)
+                tet->along[v][i] = g[i];
+            continue;
+        }
         tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
         tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
         tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
