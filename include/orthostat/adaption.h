@@ -38,7 +38,7 @@ typedef enum {
     OST_ADAPT_NO_ESTIMATE, /* nothing is known of the error of this problem */
     OST_ADAPT_FAILED,      /* a finer mesh could not be made or solved */
     OST_ADAPT_OUT_OF_REACH /* no limit of time, and 100 times the memory would not do: ended when 2 % off, or after a
-                              minute */
+                              minute; or the error hardly falls */
 } OstAdaptEnd;
 
 typedef struct OstAdaption OstAdaption;

@@ -96,10 +96,16 @@ static double power_of(const OstAdaption *adaption)
     return adaption->watch ? 2.0 : 1.0;
 }
 
+/* A displacement below this share of the largest one, as one that is zero by symmetry, is compared with that share. */
+static const double small_displacement = 1e-2;
+
 /* Relative to what the exact value seems to be. */
-static double relative_error(const OstInterestError *interest)
+static double relative_error(const OstResult *result)
 {
-    const double exact = fabs(interest->value + interest->error);
+    const OstInterestError *interest = &result->interest;
+    const int of_displacement = interest->watch && interest->watch->kind == OST_WATCH_DISPLACEMENT;
+    const double least = of_displacement ? small_displacement * result->largest_displacement : 0.0;
+    const double exact = fmax(fabs(interest->value + interest->error), least);
     return interest->sum > 0.0 ? interest->sum / fmax(exact, interest->sum) : 0.0;
 }
 
@@ -176,21 +182,20 @@ static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start
 {
     OstAdaptLevel *level = &adaption->level[adaption->count++];
     const OstResult *result = stage->result;
-    *level =
-        (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
-                        .tets = stage->scene->mesh->global_tets,
-                        .unknowns = result->unknowns,
-                        .error = result->answer,
-                        .value = result->interest.value,
-                        .off = result->interest.error,
-                        .shares = result->interest.sum,
-                        .relative_error = adaption->watch ? relative_error(&result->interest) : result->answer.relative,
-                        .missed = 1.0,
-                        .strain_energy = result->checks.strain_energy,
-                        .potential = stage->potential,
-                        .volume = stage->volume,
-                        .iterations = result->solve.iterations,
-                        .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
+    *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
+                             .tets = stage->scene->mesh->global_tets,
+                             .unknowns = result->unknowns,
+                             .error = result->answer,
+                             .value = result->interest.value,
+                             .off = result->interest.error,
+                             .shares = result->interest.sum,
+                             .relative_error = adaption->watch ? relative_error(result) : result->answer.relative,
+                             .missed = 1.0,
+                             .strain_energy = result->checks.strain_energy,
+                             .potential = stage->potential,
+                             .volume = stage->volume,
+                             .iterations = result->solve.iterations,
+                             .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
     level->error.known &= !adaption->watch || result->interest.watch;
     if (level->error.known)
         add_missed(adaption, stage);
@@ -266,6 +271,22 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
     return note_level(adaption, next, level_start);
 }
 
+/* So many times the unknowns that leave so much of the error tell of an energy without limit, as a force on a point
+ * has.
+ */
+static const double many_times = 8.0, hardly_less = 0.85;
+
+/* What is left of the error of the last level before which has so few unknowns; 0 if there is none. Not of linear tets:
+ * as long as they lock, errors stay near 100 %. */
+static double left_of_error(const OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    for (const OstAdaptLevel *level = last; level-- > adaption->level && level->order == 2;)
+        if (many_times * (double)level->unknowns <= (double)last->unknowns)
+            return error_of(last) / error_of(level);
+    return 0.0;
+}
+
 /* Whoever sets a limit of time is not stopped before: that is how to get the best there is. Collective. */
 static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *over)
 {
@@ -273,7 +294,14 @@ static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *ove
     double elapsed = 0.0;
     if (*over || adaption->count < 2 || last[-1].order != last->order || isfinite(adaption->limits.seconds))
         return OST_SUCCESS;
+    adaption->left = left_of_error(adaption);
+    if (adaption->left > hardly_less) {
+        *over = 1;
+        adaption->end = OST_ADAPT_OUT_OF_REACH;
+        return OST_SUCCESS;
+    }
     const double growth = growth_to_meet(adaption, power_of(adaption) * last->order / 3.0);
+    adaption->left = 0.0;
     if (growth * memory_beside * last->bytes <= far_beyond * adaption->limits.bytes)
         return OST_SUCCESS;
     OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
@@ -294,6 +322,29 @@ static int is_over(OstAdaption *adaption)
     return over;
 }
 
+/* Areas that change by more than the error that is asked for, or 1 %, which curved surfaces may, are told. */
+static const double least_change = 0.01;
+
+/* The level that was solved takes the place of the one before; that is kept while it has the smaller error. */
+static OstStatus take_level(OstAdaption *adaption, OstStage **next)
+{
+    OstStage *before = adaption->stage;
+    const int last = adaption->count - 1;
+    const OstAdaptLevel *level = adaption->level;
+    const int is_worse =
+        !level[last].error.known || level[last].relative_error > level[adaption->answer].relative_error;
+    adaption->stage = *next;
+    *next = before;
+    if (is_worse && !adaption->best) {
+        adaption->best = before;
+        *next = NULL;
+    } else if (!is_worse) {
+        ost_stage_destroy(&adaption->best);
+        adaption->answer = last;
+    }
+    return ost_first_mesh_compare(&adaption->first, adaption->stage->scene, fmax(adaption->request, least_change));
+}
+
 /* A finer level that fails leaves the one before as the answer. */
 static OstStatus take_failure(OstAdaption *adaption, OstStatus status)
 {
@@ -310,11 +361,8 @@ static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
         OstStage *next = NULL;
         OstStatus status = ost_stage_create(adaption->ctx, &next);
         OST_THEN(step(adaption, c, adaption->stage, start, next, &ended));
-        if (status == OST_SUCCESS && !ended) {
-            OstStage *old = adaption->stage;
-            adaption->stage = next;
-            next = old;
-        }
+        if (status == OST_SUCCESS && !ended)
+            status = take_level(adaption, &next);
         ost_stage_destroy(&next);
         if (status != OST_SUCCESS)
             return take_failure(adaption, status);
@@ -329,12 +377,18 @@ static OstStatus adapt(OstAdaption *adaption, const OstCase *c)
     const double start = ost_seconds();
     OST_TRY(ost_stage_create(adaption->ctx, &adaption->stage));
     OST_TRY(ost_stage_open(adaption->stage, c));
+    OST_TRY(ost_first_mesh_keep(adaption->stage->scene, &adaption->stage->c, &adaption->first));
     OST_TRY(ost_stage_solve(adaption->stage));
     OST_TRY(note_level(adaption, adaption->stage, start));
     warn_of_order(adaption, c);
     OST_TRY(climb(adaption, c, start));
     if (adaption->end != OST_ADAPT_MET && adaption->end != OST_ADAPT_NO_ESTIMATE)
         foretell(adaption);
+    if (adaption->best) {
+        ost_stage_destroy(&adaption->stage);
+        adaption->stage = adaption->best;
+        adaption->best = NULL;
+    }
     return ost_stage_finish(adaption->stage);
 }
 
@@ -353,6 +407,8 @@ void ost_adaption_destroy(OstAdaption **adaption)
     if (!*adaption)
         return;
     ost_stage_destroy(&(*adaption)->stage);
+    ost_stage_destroy(&(*adaption)->best);
+    ost_first_mesh_clear(&(*adaption)->first);
     OST_FREE(*adaption);
 }
 

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ADAPT_ADAPT_H
 #define ORTHOSTAT_ADAPT_ADAPT_H
 
+#include "adapt/first_mesh.h"
 #include "orthostat/adaption.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
@@ -19,8 +20,13 @@ struct OstAdaption {
     char failure[OST_ERROR_TEXT_SIZE];                    /* FAILED: why */
     double rate;                                          /* the error falls as unknowns^-rate, by the last levels */
     double needed_unknowns, needed_seconds, needed_bytes; /* to meet the request, by that rate; 0 if met or not known */
-    double reach, reach_seconds;                          /* the error that the memory allows, by that rate */
-    struct Stage *stage;                                  /* the last level that was solved */
+    double left;                 /* OUT_OF_REACH: of the error, with 8 times the unknowns; 0: as the
+                                    memory would not do */
+    double reach, reach_seconds; /* the error that the memory allows, by that rate */
+    OstFirstMesh first;
+    struct Stage *stage; /* the last level that was solved; in the end the one that is the answer */
+    struct Stage *best;  /* one before it with a smaller error; NULL: there is none */
+    int answer;          /* the number of the level that is the answer, or would be if this were the end; from 0 */
 };
 
 /* Local; rank 0 prints: a line for each level, and how it ended. */

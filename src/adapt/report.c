@@ -35,6 +35,15 @@ static void describe_end(const OstAdaption *adaption, char *text, size_t size)
         snprintf(text, size, "the next level failed: %.300s", adaption->failure);
         break;
     case OST_ADAPT_OUT_OF_REACH:
+        if (adaption->left > 0.0) {
+            snprintf(
+                text, size,
+                "with 8 times the unknowns %.0f %% of the error are left, as where a force acts on a point and the "
+                "energy has no limit: spread it over faces (total_force, traction), ask for the error of what is "
+                "watched elsewhere (of: NAME), or set --max-time to refine as far as it goes",
+                100.0 * adaption->left);
+            break;
+        }
         snprintf(text, size,
                  "it is out of reach of %.3g GiB, which allow about %.2g %% in about %.2g s: ask for that, or set "
                  "--max-time to refine as far as it goes",
@@ -48,7 +57,7 @@ static void describe_end(const OstAdaption *adaption, char *text, size_t size)
 
 void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAPT_WORDS])
 {
-    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
+    const OstAdaptLevel *answer = &adaption->level[adaption->answer];
     char why[360];
     describe_end(adaption, why, sizeof why);
     int length = snprintf(words, OST_LONGEST_ADAPT_WORDS, "the error asked for, %.3g %%, is not met: %s",
@@ -56,10 +65,13 @@ void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAP
     if (adaption->end == OST_ADAPT_NO_ESTIMATE || length < 0 || length >= OST_LONGEST_ADAPT_WORDS)
         return;
     snprintf(words + length, (size_t)(OST_LONGEST_ADAPT_WORDS - length),
-             ". The answer is about %.2g %% off; as the error fell, with unknowns^-%.2f, meeting it takes about %.2g "
+             ". The answer is about %.2g %% off%s; as the error fell, with unknowns^-%.2f, meeting it takes about %.2g "
              "unknowns, %.2g s and %.2g GiB more",
-             100.0 * last->relative_error, adaption->rate, adaption->needed_unknowns, adaption->needed_seconds,
-             adaption->needed_bytes / 0x1p30);
+             100.0 * answer->relative_error,
+             answer->relative_error <= adaption->request ? ", but that is to be well within what is asked for, as "
+                                                           "estimates near edges are up to a quarter low"
+                                                         : "",
+             adaption->rate, adaption->needed_unknowns, adaption->needed_seconds, adaption->needed_bytes / 0x1p30);
 }
 
 void ost_adaption_print(const OstAdaption *adaption)
@@ -106,9 +118,10 @@ json_t *ost_adaption_json(const OstAdaption *adaption)
                       "missed", level->is_measured ? ost_json_number(level->missed) : json_null(), "strain_energy",
                       ost_json_number(level->strain_energy), "seconds", level->seconds, "bytes", level->bytes));
     }
-    return json_pack("{s:f, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "asked", adaption->request, "of",
+    return json_pack("{s:f, s:s, s:s, s:b, s:i, s:o, s:o, s:o, s:o, s:o}", "asked", adaption->request, "of",
                      adaption->watch ? adaption->watch->name : "energy", "end", end_name[adaption->end], "met",
-                     adaption->end == OST_ADAPT_MET, "levels", levels, "rate", needed_json(adaption->rate),
-                     "needed_unknowns", needed_json(adaption->needed_unknowns), "needed_seconds",
-                     needed_json(adaption->needed_seconds), "needed_bytes", needed_json(adaption->needed_bytes));
+                     adaption->end == OST_ADAPT_MET, "answer_level", adaption->answer + 1, "levels", levels, "rate",
+                     needed_json(adaption->rate), "needed_unknowns", needed_json(adaption->needed_unknowns),
+                     "needed_seconds", needed_json(adaption->needed_seconds), "needed_bytes",
+                     needed_json(adaption->needed_bytes));
 }

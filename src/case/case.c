@@ -237,6 +237,7 @@ static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
         c->solver.algebraic_fraction = ost_case_stop_fraction(c);
     OST_TRY(check_links(yaml, c));
     OST_TRY(check_distributing(yaml, c));
+    OST_TRY(ost_settle_accuracy(c));
     return check_density(yaml, c);
 }
 

@@ -337,4 +337,12 @@ OstStatus ost_select_nodes(const OstCase *c, const OstMesh *mesh, const OstSelec
 OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces);
 
+/* Local. Raises OST_INVALID_INPUT at the line of a force or spring that acts on each vertex of a boundary or the like:
+ * a finer mesh has more of them, and so another load. `to`: what cannot be done so, as "To ask for an accuracy". */
+OstStatus ost_case_check_finer(const OstCase *c, const char *to);
+
+/* Local. Do supports, springs and loads act on the same part of the body on finer meshes? Not on what a box, a sphere
+ * or a cylinder selects, nor on each vertex of a boundary; nor where faces are tied, periodic or moved in the mean. */
+int ost_case_stays(const OstCase *c);
+
 #endif

@@ -66,4 +66,8 @@ void ost_constraint_release(OstConstraint *constraint);
 struct OstVerify;
 void ost_verify_release(struct OstVerify **verify);
 
+/* Local. Of a case that asks for an accuracy: chooses quadratic tets where linear ones lock, as volume hardly changes,
+ * and raises where meshes that are cut cannot hold the same problem. */
+OstStatus ost_settle_accuracy(OstCase *c);
+
 #endif

@@ -301,3 +301,41 @@ done:
     ost_ledger_leave(ctx);
     return status;
 }
+
+/* --- on finer meshes --- */
+
+/* A vertex further from the stated point than this share of an edge is worth a warning. */
+static const double near_enough = 0.1;
+
+int ost_selection_varies(const OstSelection *on)
+{
+    return on->kind == OST_SELECT_BOX || on->kind == OST_SELECT_SPHERE || on->kind == OST_SELECT_CYLINDER;
+}
+
+OstStatus ost_place_at_vertex(const OstMesh *mesh, OstSelection *on)
+{
+    OstNearest vertex;
+    if (on->kind != OST_SELECT_NEAREST)
+        return OST_SUCCESS;
+    OST_TRY(ost_mesh_nearest(mesh, on->point, &vertex));
+    memcpy(on->point, vertex.at, sizeof vertex.at);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
+{
+    if (watch->kind != OST_WATCH_DISPLACEMENT)
+        return OST_SUCCESS;
+    double *place = watch->on.point;
+    double edge = 0.0, longest = 0.0;
+    OstNearest vertex;
+    OST_TRY(ost_mesh_nearest(mesh, place, &vertex));
+    OST_TRY(ost_mesh_edges_at(mesh, &vertex, &edge, &longest));
+    if (vertex.distance > near_enough * edge)
+        ost_warn(mesh->ctx,
+                 "'%s' is taken at (%g, %g, %g), the vertex nearest to (%g, %g, %g); the edges there are %g "
+                 "long",
+                 watch->name, vertex.at[0], vertex.at[1], vertex.at[2], place[0], place[1], place[2], edge);
+    memcpy(place, vertex.at, sizeof vertex.at);
+    return OST_SUCCESS;
+}

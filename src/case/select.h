@@ -23,4 +23,16 @@ OstStatus ost_raise_no_region(const OstCase *c, OstPlace place, const OstNames *
 OstStatus ost_select_raise(const OstCase *c, const OstSelection *selection, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Local. Is what the selection holds a matter of the mesh: the vertices within a box, a sphere or a cylinder? */
+int ost_selection_varies(const OstSelection *on);
+
+/* Collective. Takes the place of a selection to the vertex nearest to it (NEAREST; others stay as they are): on finer
+ * meshes it is the nearest, too. */
+OstStatus ost_place_at_vertex(const OstMesh *mesh, OstSelection *on);
+
+/* Collective. The same of a watched displacement; warns if the vertex is further away than a tenth of its shortest
+ * edge.
+ */
+OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
+
 #endif

@@ -168,6 +168,7 @@ OstStatus ost_cost_create(const OstCase *c, const OstCostVariants *variants, Ost
     OstContext *ctx = c->ctx;
     *cost = NULL;
     OST_TRY(check_variants(ctx, variants));
+    OST_TRY(ost_case_check_finer(c, "To compare meshes"));
     OstStatus status = OST_NEW(ctx, cost, 1);
     if (status == OST_SUCCESS) {
         **cost = (OstCost){.ctx = ctx, .c = c, .variants = *variants, .measure = ost_cost_measure};

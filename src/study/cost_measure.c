@@ -2,6 +2,7 @@
 #include "study/cost.h"
 
 #include "adapt/adapt.h"
+#include "case/select.h"
 #include "core/error.h"
 
 #include <math.h>

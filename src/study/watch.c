@@ -2,6 +2,7 @@
 #include "study/watch.h"
 
 #include "assembly/batch.h"
+#include "case/select.h"
 #include "case/verify.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -13,9 +14,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A vertex further from the stated point than this share of an edge is worth a warning. */
-static const double near_enough = 0.1;
-
 /* Linear theory that is off by this share of the largest displacement is worth a warning where that is this share of
  * what is watched. */
 static const double worth_words = 1e-3;
@@ -25,24 +23,6 @@ static const char force_is_unknown[] = "the force of a moved coupling is looked 
 
 /* An error below this share is rounding, as is a reaction of the body's. */
 static const double rounding = 1e-12;
-
-OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch)
-{
-    if (watch->kind != OST_WATCH_DISPLACEMENT)
-        return OST_SUCCESS;
-    double *place = watch->on.point;
-    double edge = 0.0, longest = 0.0;
-    OstNearest vertex;
-    OST_TRY(ost_mesh_nearest(mesh, place, &vertex));
-    OST_TRY(ost_mesh_edges_at(mesh, &vertex, &edge, &longest));
-    if (vertex.distance > near_enough * edge)
-        ost_warn(mesh->ctx,
-                 "'%s' is taken at (%g, %g, %g), the vertex nearest to (%g, %g, %g); the edges there are %g "
-                 "long",
-                 watch->name, vertex.at[0], vertex.at[1], vertex.at[2], place[0], place[1], place[2], edge);
-    memcpy(place, vertex.at, sizeof vertex.at);
-    return OST_SUCCESS;
-}
 
 static double component_of(const double vector[3], int component)
 {

@@ -17,11 +17,6 @@ typedef struct OstWatched {
     const char *exact; /* why the value has no error of the mesh, in words; NULL else */
 } OstWatched;
 
-/* Collective. Moves the point of a displacement to the nearest vertex of this mesh (not a mid-edge node), so that it
- * stays the same when the mesh is refined; warns if the vertex is further away than a tenth of its shortest edge.
- * Leaves other quantities alone. */
-OstStatus ost_watch_place(const OstMesh *mesh, OstWatch *watch);
-
 /* Collective. The quantity in a result of the scene. */
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                              OstWatched *watched);

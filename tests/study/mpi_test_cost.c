@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/case_text.h"
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "orthostat/refine.h"
