@@ -265,7 +265,10 @@ static OstStatus strain_load(Search *search, double *strain)
     return ost_steps_take_rows(&search->steps, search->steps.q.rows);
 }
 
-/* steps.u: z, and its pressures, of tets, by both equations of a mixed form, to the solver's residual. */
+/* z only tells an error, of which two digits are enough. */
+static const double residual_of_mixed = 1e-4;
+
+/* steps.u: z, and its pressures, of tets, by both equations of a mixed form. */
 static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, double *of_tets)
 {
     const OstProblem *problem = search->estimate->problem;
@@ -280,8 +283,11 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OST_TRY_DONE(adjoint_volume(problem, wanted, g));
     OST_TRY_DONE(interest->strain ? strain_load(search, interest->strain)
                                   : adjoint_load(search, interest, wanted->t, wanted->u));
-    OST_TRY_DONE(ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
-                                        steps->z, &report));
+    ost_solver_aim(steps->solver, (OstSolverAim){.relative_residual = residual_of_mixed});
+    status = ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
+                                    steps->z, &report);
+    ost_solver_aim(steps->solver, (OstSolverAim){0});
+    OST_TRY_DONE(status);
     OST_TRY_DONE(ost_pressure_complete(space, pressure));
     ost_pressure_of_tets(space, pressure, of_tets);
     status = ost_system_displacement(problem->system, 0.0, steps->z, steps->u);
