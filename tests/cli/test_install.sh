@@ -16,7 +16,8 @@ fail() {
 
 # --- the package; everything is built already, and Ninja is not asked to look ---
 
-cpack --config "$ORTHOSTAT_BUILD/CPackConfig.cmake" -B "$folder/cpack" -D CPACK_CMAKE_GENERATOR=Ninja >"$folder/cpack.log" 2>&1 ||
+cpack --config "$ORTHOSTAT_BUILD/CPackConfig.cmake" -B "$folder/cpack" -D CPACK_CMAKE_GENERATOR=Ninja \
+    -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$folder/cpack.log" 2>&1 ||
     fail "$(cat "$folder/cpack.log")"
 version=$(sed -nE 's/^project\(orthostat VERSION ([0-9.]+).*/\1/p' "$ORTHOSTAT_SOURCE/CMakeLists.txt")
 package=$folder/cpack/orthostat_${version}_$(dpkg --print-architecture).deb

@@ -95,7 +95,7 @@ check(code != 0, f"Ctrl-C under mpirun: exit {code}")  # 1 of Open MPI 4, whatev
 write(folder, "many.yaml", CASE.replace("[120, 30, 30]", "[60, 16, 16]") + "path: {steps: 200}\nlarge_rotation: off\n")
 process = subprocess.Popen([PROGRAM, "solve", "many.yaml", "-q"], cwd=folder, stderr=subprocess.PIPE, text=True)
 first = os.path.join(folder, "bar_0002.vtkhdf")
-for _ in range(600):
+for _ in range(2400):
     if os.path.exists(first):
         break
     time.sleep(0.05)

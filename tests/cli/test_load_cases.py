@@ -9,7 +9,7 @@ import sys
 
 import h5py
 
-from program import MPIEXEC, PROGRAM, SOURCE, check, fewer, new_folder, read_json, read_points, run, write
+from program import MPIEXEC, PROGRAM, SANITIZED, SOURCE, check, fewer, new_folder, read_json, read_points, run, write
 
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 import steps  # noqa: E402
@@ -66,7 +66,7 @@ def check_steps(path, ranks):
 
 
 # --- all cases, and each of them alone ---
-for ranks in fewer((1, 2, 4)):
+for ranks in fewer((1, 4, 2)):
     folder = folder_with(CASE)
     finished = run("solve", "beam.yaml", "--json", "beam.json", ranks=ranks, folder=folder)
     check(finished.exit_code == 0 and "4 load cases" in finished.output, finished.output + finished.errors)
@@ -183,21 +183,22 @@ wrong = subprocess.run([PROGRAM, "check", "-", "--set", "mesh={file: bar.msh}"],
                        text=True, timeout=240)
 check(wrong.returncode == 2 and "stdin:2:7: bar.msh: cannot be read" in wrong.stderr, wrong.stderr)
 
-# --- an early stop: the answer's error stands first, and a residual that says nothing of it is told to those who ask ---
-early = CASE.replace("accuracy: {relative_residual: 1e-11}\n", "").replace("[12, 2, 2]", "[60, 10, 10]")
-folder = folder_with(early)
-short = run("solve", "beam.yaml", "--case", "weight", folder=folder).output
-whole = run("solve", "beam.yaml", "--case", "weight", "-v", folder=folder).output
-check("  stopped " in short and "residual" not in short, short)
-check(0 < short.find("  accuracy ") < short.find("  solver "), short)
-check("of the loads (true, recomputed)" in whole and "hardly move anything" in whole and "tet by tet" in whole, whole)
+if not SANITIZED:  # bodies that take a while
+    # --- an early stop: the answer's error stands first, and a residual that says nothing of it is told to those who ask ---
+    early = CASE.replace("accuracy: {relative_residual: 1e-11}\n", "").replace("[12, 2, 2]", "[60, 10, 10]")
+    folder = folder_with(early)
+    short = run("solve", "beam.yaml", "--case", "weight", folder=folder).output
+    whole = run("solve", "beam.yaml", "--case", "weight", "-v", folder=folder).output
+    check("  stopped " in short and "residual" not in short, short)
+    check(0 < short.find("  accuracy ") < short.find("  solver "), short)
+    check("of the loads (true, recomputed)" in whole and "hardly move anything" in whole and "tet by tet" in whole, whole)
 
-# --- progress moves while cases are solved together, and never goes back ---
-folder = folder_with(early.replace("[60, 10, 10]", "[72, 12, 12]").replace("5]}]\n", "5]}]\n  - {name: again, combine: {weight: 2}}\n"))
-shown = subprocess.run([PROGRAM, "solve", "beam.yaml", "--set", "large_rotation=off"], cwd=folder, capture_output=True, text=True,
-                       env={**os.environ, "ORTHOSTAT_ON_TERMINAL": "1"}, timeout=240).stderr
-shares = [int(share) for share in re.findall(r"load case \S+, \d of 5 (\d+) %", shown)]
-check(shares == sorted(shares) and len(set(shares)) > 3 and 0 < shares[len(shares) // 2] < 95, shown)
+    # --- progress moves while cases are solved together, and never goes back ---
+    folder = folder_with(early.replace("[60, 10, 10]", "[72, 12, 12]").replace("5]}]\n", "5]}]\n  - {name: again, combine: {weight: 2}}\n"))
+    shown = subprocess.run([PROGRAM, "solve", "beam.yaml", "--set", "large_rotation=off"], cwd=folder, capture_output=True, text=True,
+                           env={**os.environ, "ORTHOSTAT_ON_TERMINAL": "1"}, timeout=240).stderr
+    shares = [int(share) for share in re.findall(r"load case \S+, \d of 5 (\d+) %", shown)]
+    check(shares == sorted(shares) and len(set(shares)) > 3 and 0 < shares[len(shares) // 2] < 95, shown)
 
 # --- by how much the loads of each case may grow until the material fails, and which case is the first ---
 strong = CASE.replace("density: 1}", "density: 1, strengths: {tension: 0.5}}").replace("[1000, 80, 50]", "1000")

@@ -35,6 +35,8 @@ static void end(int signal_number)
             say("\r\033[K");
         say(completed > 0 ? "orthostat: interrupted; the files that were complete stay, nothing else was written\n"
                           : "orthostat: interrupted, nothing written\n");
+    } else {
+        sleep(1); /* as soon as one rank ends mpirun kills the others: first the one that speaks */
     }
     _exit(INTERRUPTED);
 }
