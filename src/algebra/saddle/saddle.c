@@ -451,13 +451,17 @@ static int is_digit_left(const OstSolveReport *report)
     return report->error_estimate > 0.0 && report->error_estimate < ost_least_digit;
 }
 
-/* The residual is as small as rounding allows, but so small an eigenvalue was met that one application of the
+/* The residual is as small as rounding allows, but so small an eigenvalue was met, or none, that one application of the
  * preconditioner tells nothing of u. Factors do not go by eigenvalues. */
-static void leave_rounding(OstGoal *goal, const OstSolveReport *report)
+static void leave_rounding(OstGoal *goal, OstSolveReport *report)
 {
-    if (goal->end != OST_END_ROUNDING || is_digit_left(report) ||
-        (report->error_estimate > 0.0 && is_last_answer(goal)))
+    static const double nothing_known = 1.0;
+    if (goal->end != OST_END_ROUNDING || is_digit_left(report))
         return;
+    if (is_last_answer(goal)) {
+        report->error_estimate = fmax(report->error_estimate, nothing_known);
+        return;
+    }
     goal->end = OST_END_STALLED;
     snprintf(goal->words, sizeof goal->words, "after %d iterations the residual is rounding's, but u is not known",
              goal->convergence.count);
