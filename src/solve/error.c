@@ -20,7 +20,7 @@ static const double worst_condition = 100.0;
 /* The error is found to a part of its energy, of which forces may hold more than the displacement (docs/checks.md). */
 static const double forces_caution = 2.0;
 
-/* An error of the forces above this is looked at more closely where the displacement's is smaller. */
+/* An error of the forces above this seems lost where the displacement's is smaller. */
 static const double large_error = 1e-3;
 
 /* What is stated of a displacement whose stresses stay that far off, over what was measured. */
@@ -244,6 +244,22 @@ done:
     return status;
 }
 
+/* Stiff parts may have most of an error's forces and little of its energy, so they are found late: looks more closely
+ * until no error grows any more. */
+static OstStatus look_closer(const Search *search, OstErrors *errors)
+{
+    OstErrors before = {0};
+    for (double missing = 1e-2; missing > 1e-9 && largest(errors) > small_error; missing *= 1e-2) {
+        const int grows =
+            errors->displacement > 2.0 * before.displacement || of_forces(errors) > 2.0 * of_forces(&before);
+        if (!grows && !seem_lost(errors))
+            break;
+        before = *errors;
+        OST_TRY(measure(search, missing, errors));
+    }
+    return OST_SUCCESS;
+}
+
 /* Of an error that the residual asked for explains. */
 static OstStatus measure_asked(Search *search, OstErrors *errors)
 {
@@ -262,8 +278,7 @@ static OstStatus measure_all(Search *search, int is_rounding, OstErrors *errors)
         OST_TRY(measure(search, 0.1, errors));
     if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
         OST_TRY(correct(search, errors));
-    for (double missing = 1e-3; missing > 1e-8 && errors->known && seem_lost(errors); missing *= 1e-2)
-        OST_TRY(measure(search, missing, errors));
+    OST_TRY(look_closer(search, errors));
     if (errors->known &&
         seem_lost(errors)) /* so rounding of the stiffness counts, which this displacement does not see */
         errors->displacement *= lost_caution;

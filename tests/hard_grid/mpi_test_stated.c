@@ -126,16 +126,21 @@ static void what_holds_no_digit_is_refused_for_rounding(void **state)
     ost_scene_destroy(&scene);
 }
 
-/* "checker, order 1, 0.999 of border, E3 x 1e+06, cylindrical": on four ranks its error, found to a tenth in the norm
- * of the energy, was a quarter of that of the reactions. */
+/* "order 1, 0.999 of border, E3 x 1e+06, cylindrical": found to a tenth in the norm of the energy, the error of the
+ * checkerboard was a quarter of that of the reactions on four ranks, and that of stiff inclusions a ninth of that of
+ * their stresses. */
 static void what_forces_hold_more_of_is_stated(void **state)
 {
-    const HardPoint point = {
-        .shape = hard_find_shape("checker"), .order = 1, .poisson = 6, .ratio = 2, .stiff = 2, .axes = 1};
-    HardReading reading = {.outcome = HARD_OUTCOMES};
-    assert_success(hard_read(ctx, &point, &reading));
-    assert_int_equal(reading.status, OST_SUCCESS);
-    assert_true(reading.truth.off.known && hard_states_its_error(&reading));
+    const HardPoint points[] = {
+        {.shape = hard_find_shape("checker"), .order = 1, .poisson = 6, .ratio = 2, .stiff = 2, .axes = 1},
+        {.shape = hard_find_shape("stiff"), .order = 1, .poisson = 6, .ratio = 2, .stiff = 2, .axes = 1, .size = 1000},
+    };
+    for (size_t p = 0; p < sizeof points / sizeof *points; p++) {
+        HardReading reading = {.outcome = HARD_OUTCOMES};
+        assert_success(hard_read(ctx, &points[p], &reading));
+        assert_int_equal(reading.status, OST_SUCCESS);
+        assert_true(reading.truth.off.known && hard_states_its_error(&reading));
+    }
 }
 
 /* Bars by the mixed form, stopped early and held by springs: softer than the preconditioner says, so that the norm in

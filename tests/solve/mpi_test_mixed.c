@@ -222,7 +222,7 @@ static void a_body_whose_inside_is_fixed_takes_few_iterations(void **state)
         "constraints: [{on: {sphere: {center: [0, 0, 0], radius: 0.9}}, displacement: [0, 0, 0]}]\n"
         "loads: [{gravity: [0, 0, 1e-3]}]\nlarge_rotation: off\naccuracy: {algebraic_fraction: 0}\n"
         "solver: {factor_memory: 1e-6}\noutput: {fields: [displacement]}\n";
-    check_iterations("half of a block is fixed", text, 2, 45, NULL, NULL);
+    check_iterations("half of a block is fixed", text, 2, 36, NULL, NULL);
 }
 
 /* Tets of a lower half that is fixed throughout change no volume: the upper half alone takes as many iterations. */

@@ -5,10 +5,11 @@
 #include "algebra/krylov/preconditioner.h"
 #include "algebra/saddle/coupling.h"
 
-/* What the mass matrix does not know of the pressures' Schur complement S: next to far stiffer material, where a ratio
- * of moduli leaves the displacements of few tets free, S is far below it, at pressures that differ from node to node.
- * T = B D^-1 B' + C, with D the diagonal blocks of A, is small there too, and known. A share of T^-1, by Chebyshev
- * steps, is added to the mass matrix's inverse; the steps leave out the smooth pressures, of which T knows nothing. */
+/* What the mass matrix does not know of the pressures' Schur complement S: next to fixed nodes and far stiffer
+ * material, and where a ratio of moduli leaves the displacements of few tets free, S is far below it, at pressures that
+ * differ from node to node. T = B D^-1 B' + C, with D the diagonal blocks of A, is small there too, and known. A share
+ * of T^-1, by Chebyshev steps, is added to the mass matrix's inverse. Of smooth pressures T knows nothing: next to
+ * fixed nodes it is restricted to the pressures with a small diagonal; else the steps leave the smooth ones out. */
 typedef struct OstLocalSchur OstLocalSchur;
 
 /* Local. For ost_coupling_schur_solve: where most nodes around a pressure are fixed, or far stiffer, S is below the

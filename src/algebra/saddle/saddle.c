@@ -302,13 +302,22 @@ static OstStatus find_limit(OstSaddleRun *run)
     return OST_SUCCESS;
 }
 
+/* Is this the last strategy, and has it an answer? Then what rounding leaves of it is measured (solve/mixed_error.c).
+ */
+static int is_last_answer(const OstGoal *goal)
+{
+    return goal->patience == 0 && goal->norm < goal->start;
+}
+
 /* Passes from residuals in twice the precision gain nothing: what else rounds in them is the reason, and is no part of
- * the limit. Not while there is another strategy, which may round less. */
+ * the limit; a direction that is lost is, too, where the preconditioner has all digits it may have. Not while there is
+ * another strategy, which may round less. */
 static void blame_passes(const OstSaddleRun *run)
 {
     OstGoal *goal = run->goal;
-    const int stalls = goal->end == OST_END_REACHED && !run->lost && goal->iterations < goal->most_iterations;
-    if (stalls && goal->compensated && goal->patience == 0)
+    const int stalls = goal->end == OST_END_REACHED && goal->iterations < goal->most_iterations;
+    const int may_gain = run->lost && !run->preconditioner->precise;
+    if (stalls && !may_gain && goal->compensated && is_last_answer(goal))
         goal->limit = fmax(goal->limit, goal->norm);
 }
 
@@ -442,12 +451,17 @@ static int is_digit_left(const OstSolveReport *report)
     return report->error_estimate > 0.0 && report->error_estimate < ost_least_digit;
 }
 
-/* The residual is as small as rounding allows, but so small an eigenvalue was met that nothing is known of u. Factors
- * do not go by eigenvalues. */
-static void leave_rounding(OstGoal *goal)
+/* The residual is as small as rounding allows, but so small an eigenvalue was met, or none, that one application of the
+ * preconditioner tells nothing of u. Factors do not go by eigenvalues. */
+static void leave_rounding(OstGoal *goal, OstSolveReport *report)
 {
-    if (goal->end != OST_END_ROUNDING)
+    static const double nothing_known = 1.0;
+    if (goal->end != OST_END_ROUNDING || is_digit_left(report))
         return;
+    if (is_last_answer(goal)) {
+        report->error_estimate = fmax(report->error_estimate, nothing_known);
+        return;
+    }
     goal->end = OST_END_STALLED;
     snprintf(goal->words, sizeof goal->words, "after %d iterations the residual is rounding's, but u is not known",
              goal->convergence.count);
@@ -469,8 +483,8 @@ OstStatus ost_saddle_solve(const OstCgSystem *system, const OstPreconditioner *p
     OST_TRY_DONE(ost_local_schur_create(system, saddle->coupling, &run.local));
     OST_TRY_DONE(run_passes(&run));
     OST_TRY_DONE(report_error(&run, report));
-    if (!goal->crude && !is_digit_left(report))
-        leave_rounding(goal);
+    if (!goal->crude)
+        leave_rounding(goal, report);
 done:
     ost_progress(run.ctx, "solve", -1.0);
     ost_saddle_run_destroy(&run);
