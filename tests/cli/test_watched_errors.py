@@ -104,6 +104,10 @@ BEAMS = (1, "20, 4, 4"), (2, "10, 2, 2")
 ratios_hold("a moved end", MOVED, "20, 4, 4", BEAMS)
 ratios_hold("an end that slides", SLID, "20, 4, 4", BEAMS, skip=("along",))
 ratios_hold("bent", BENT, "20, 4, 4", BEAMS)
+# By a hierarchy as by factors: one that was made before the body turned found a third.
+TURNED = BENT.split("  b:")[0].replace("accuracy: {relative_residual: 1e-9}\n", "").replace("[10,", "[4,").replace("[0, 0, 1]", "[0, 0, 4]")
+tips = [watched(TURNED, 2, "8, 4, 4", text=f"solver: {{method: {by}}}\n")[0]["tip"]["error"] for by in ("metric", "direct")]
+check(0.8 < tips[0] / tips[1] < 1.25, f"the error of a tip by a hierarchy and by factors: {tips}")
 ratios_hold("a rigid face", RIGID, "20, 4, 4", BEAMS)
 ratios_hold("a thin plate", PLATE, "20, 20, 2", ((2, "10, 10, 1"),))
 # Where nothing is watched, few steps have a part of the largest displacement's error.
