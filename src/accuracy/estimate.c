@@ -132,7 +132,7 @@ OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, O
 
 OstStatus ost_search_open(OstEstimate *estimate, OstSolver *solver, Search *search)
 {
-    *search = (Search){.estimate = estimate};
+    *search = (Search){.estimate = estimate, .higher = 1.0};
     return ost_steps_open(&estimate->stiffness, estimate->factor, solver, &search->steps);
 }
 
@@ -339,14 +339,15 @@ static OstStatus add_higher_orders(Search *search, const double *u, double *tet_
     return ost_sum(estimate->problem->ctx, 1, square);
 }
 
-/* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual. */
+/* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual, with what orders
+ * that are higher still have. */
 static OstStatus hand_out(Search *search, double *surplus)
 {
     const OstProblem *problem = search->estimate->problem;
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->steps.u));
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        surplus[i] = search->longer * search->steps.size * search->steps.u[i];
+        surplus[i] = search->higher * search->longer * search->steps.size * search->steps.u[i];
     return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *surplus, surplus));
 }
 
@@ -413,7 +414,9 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         OST_THEN(ost_search_displacement(&search));
         if (surplus->tet_error) {
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
+            const double of_steps = square;
             OST_THEN(add_higher_orders(&search, u, surplus->tet_error, &square));
+            search.higher = of_steps > 0.0 ? square / of_steps : 1.0;
         }
         OST_THEN(compare(&search, t, u, square, found));
         const int is_mixed = surplus->displacement && estimate->problem->pressures;

@@ -33,6 +33,7 @@ typedef struct Search {
     OstSteps steps;
     OstEstimate *estimate;
     double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double higher;  /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
     double energy;  /* of this rank's tets, under u; NAN: not known */
     int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
 } Search;

@@ -114,10 +114,10 @@ static OstStatus multiply_rows(OstSteps *steps)
     return OST_SUCCESS;
 }
 
-/* z = B r on the rows, by half a cycle. */
-static OstStatus take_cycle(OstSteps *steps, int brief, int *found)
+/* z = B r on the rows. */
+static OstStatus take_cycle(OstSteps *steps, OstCyclePart part, int *found)
 {
-    OST_TRY(ost_solver_precondition(steps->solver, brief, steps->r.rows, steps->z, found));
+    OST_TRY(ost_solver_precondition(steps->solver, part, steps->r.rows, steps->z, found));
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;
@@ -132,7 +132,7 @@ static OstStatus precondition(OstSteps *steps)
     int found = 1;
     const int first = steps->stiffness->complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = steps->turns++;
     if (turn >= first && (turn - first) % 2 == 0)
-        OST_TRY(take_cycle(steps, 0, &found));
+        OST_TRY(take_cycle(steps, OST_CYCLE_HALF, &found));
     else
         memset(steps->z, 0, steps->rows * sizeof *steps->z);
     steps->failed = !found;
@@ -190,13 +190,13 @@ OstStatus ost_steps_left(const OstSteps *steps, double *left)
     return ost_sum(steps->stiffness->problem->ctx, 1, left);
 }
 
-/* The next direction on the rows alone, or none: sets `weight`, r'B r, to 0. `gone` is the length of the step before. A
- * displacement is smooth, and found as well where the finest level is hardly smoothed. */
-static OstStatus turn_rows(OstSteps *steps, double gone)
+/* The next direction on the rows alone, or none: sets `weight`, r'B r, to 0. `gone` is the length of the step before.
+ */
+static OstStatus turn_rows(OstSteps *steps, OstCyclePart part, double gone)
 {
     double sums[2] = {0.0};
     int found = 0;
-    OST_TRY(take_cycle(steps, 1, &found));
+    OST_TRY(take_cycle(steps, part, &found));
     for (size_t i = 0; i < steps->rows && found; i++) {
         sums[0] += steps->r.rows[i] * steps->z[i];
         sums[1] += steps->q.rows[i] * steps->z[i];
@@ -231,11 +231,16 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
     return OST_SUCCESS;
 }
 
+/* A displacement is smooth, and on linear tets mostly found as well where the finest level is hardly smoothed. That of
+ * quadratic tets is found slowly so: with brief cycles alone steps were short while half of a bar's twist was missing.
+ */
 OstStatus ost_steps_settle(OstSteps *steps)
 {
+    const int is_quadratic = steps->stiffness->complement->mesh->nodes_per_tet == 10;
     double length = 0.0, share = 1.0;
     for (int step = 0; step < MOST_TO_SETTLE && (step < LEAST_TO_SETTLE || share > settled); step++) {
-        OST_TRY(turn_rows(steps, length));
+        const OstCyclePart part = step % 2 == 0 && (is_quadratic || step > 0) ? OST_CYCLE_WHOLE : OST_CYCLE_BRIEF;
+        OST_TRY(turn_rows(steps, part, length));
         if (!(steps->weight > 0.0))
             break;
         OST_TRY(go_on_rows(steps, &length, &share));

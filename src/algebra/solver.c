@@ -545,7 +545,7 @@ OstStatus ost_solver_error(OstSolver *solver, double missing, const double *resi
     return status;
 }
 
-OstStatus ost_solver_precondition(OstSolver *solver, int brief, const double *r, double *z, int *found)
+OstStatus ost_solver_precondition(OstSolver *solver, OstCyclePart part, const double *r, double *z, int *found)
 {
     OstCgSystem system;
     OstPreconditioner preconditioner;
@@ -555,8 +555,10 @@ OstStatus ost_solver_precondition(OstSolver *solver, int brief, const double *r,
         return OST_SUCCESS;
     OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
     ost_solver_system(solver, &system, &preconditioner);
-    if (preconditioner.half)
-        preconditioner.apply = brief && preconditioner.brief ? preconditioner.brief : preconditioner.half;
+    if (part == OST_CYCLE_BRIEF && preconditioner.brief)
+        preconditioner.apply = preconditioner.brief;
+    else if (part != OST_CYCLE_WHOLE && preconditioner.half)
+        preconditioner.apply = preconditioner.half;
     const OstStatus status = ost_precondition(&system, &preconditioner, r, scaled, z);
     OST_FREE(scaled);
     return status;

@@ -76,9 +76,10 @@ OstStatus ost_solver_mixed_error(OstSolver *solver, double missing, const OstSad
 int ost_solver_mixed_is_poor(const OstSolver *solver);
 
 /* Collective. z = M^-1 r, M the current strategy's preconditioner of A, in the units of A; 3 × rows numbers each.
- * Of multigrid half a cycle is taken, which may be unsymmetric, or the brief half. *found: 0 if the solver has no
- * strategy. */
-OstStatus ost_solver_precondition(OstSolver *solver, int brief, const double *r, double *z, int *found);
+ * Of multigrid a part of a cycle may be taken: half, which may be unsymmetric, or the brief half. *found: 0 if the
+ * solver has no strategy. */
+typedef enum { OST_CYCLE_WHOLE, OST_CYCLE_HALF, OST_CYCLE_BRIEF } OstCyclePart;
+OstStatus ost_solver_precondition(OstSolver *solver, OstCyclePart part, const double *r, double *z, int *found);
 
 /* Local. A solver for a task of its own (core/together): it uses what this one has built, and must be destroyed first.
  * It never changes the strategy: a solve that would ends with OST_NOT_CONVERGED. Only where ost_solver_shares: with a

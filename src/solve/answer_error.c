@@ -135,26 +135,46 @@ static int finds_reactions(const OstAnalysis *analysis)
     return !analysis->leaves_reactions && ost_reactions_have_adjoint(analysis->problem);
 }
 
-/* Adjoint problems of large rotations need the stiffness at the answer, not that of the last correction. Where that is
- * no good, their solves say so. */
-static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult *result)
+/* Fills the stiffness at the answer, not that of the last correction, and brings the solver up to date with it. */
+static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult *result, int definite,
+                                OstSolverUpdate how)
 {
     OstProblem *problem = analysis->problem;
-    OstLinear *linear = analysis->work;
+    OstStiffnessSolver *stiffness = &((OstLinear *)analysis->work)->stiffness;
     const OstFormulation formulation = problem->formulation;
     const double *pressure = problem->field->pressure;
-    if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || finds_reactions(analysis)))
-        return OST_SUCCESS;
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
     if (problem->pressures)
         ost_problem_take_pressure(problem, result->pressure);
-    OstStatus status = ost_problem_stiffness(problem, t, result->displacement, NULL);
-    OST_THEN(ost_solver_update(linear->stiffness.solver, OST_UPDATE_KEEP));
-    linear->stiffness.moved = 1;
+    OstStatus status = ost_problem_stiffness_from(problem, t, result->displacement, NULL, definite);
+    stiffness->moved = 1;
+    OST_THEN(how == OST_UPDATE_KEEP ? ost_solver_update(stiffness->solver, how)
+                                    : ost_stiffness_solver_rebuild(stiffness, t, result->displacement));
     if (problem->pressures)
         ost_problem_take_pressure(problem, pressure);
     ost_problem_take_formulation(problem, formulation);
     return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT ? OST_SUCCESS : status;
+}
+
+/* Adjoint problems of large rotations need the stiffness at the answer. Where it is no good, their solves say so. */
+static OstStatus move_for_adjoints(OstAnalysis *analysis, double t, const OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || finds_reactions(analysis)))
+        return OST_SUCCESS;
+    return move_stiffness(analysis, t, result, 0, OST_UPDATE_KEEP);
+}
+
+/* A hierarchy, or factors that GMRES was content with, made before the body turned see its bending as strain: few steps
+ * would then find a fifth to two fifths of a watched displacement's error. */
+static OstStatus renew_solver(OstAnalysis *analysis, double t, const OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstSolveReport *solve = &result->solve;
+    const int is_new = solve->method == OST_METHOD_DIRECT ? problem->conservative : !(solve->condition_estimate > slow);
+    if (ost_problem_is_linear(problem) || !problem->scene || problem->scene->c->watch_count == 0 || is_new)
+        return OST_SUCCESS;
+    return move_stiffness(analysis, t, result, 1, OST_UPDATE_REBUILD);
 }
 
 /* Of watched reactions and mean stresses, one for each quantity; by linear theory load cases, and a path's steps, share
@@ -194,7 +214,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     if (result->answer.known)
         OST_TRY_DONE(ost_mesh_cut_off(result->mesh, &result->answer.cut_off));
     if (result->answer.known)
-        OST_TRY_DONE(move_stiffness(analysis, t, result));
+        OST_TRY_DONE(move_for_adjoints(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))
         OST_TRY_DONE(estimate_interest(analysis, estimate, t, result));
     if (result->answer.known && !analysis->leaves_reactions)
@@ -226,7 +246,9 @@ OstStatus ost_analysis_estimate(OstAnalysis *analysis, double t, OstResult *resu
     const int wants_reactions = !analysis->leaves_reactions && ost_reactions_are_watched(analysis->problem);
     const int has_all = result->answer.known && !asks_of_quantity(analysis->problem) && !wants_reactions;
     const int needs_own = !has_all && !analysis->estimate;
-    OstStatus status = needs_own ? ost_estimate_create(&state, &estimate) : OST_SUCCESS;
+    OstStatus status = result->answer.known ? OST_SUCCESS : renew_solver(analysis, t, result);
+    if (needs_own)
+        OST_THEN(ost_estimate_create(&state, &estimate));
     OST_THEN(estimate_tets(analysis, needs_own ? estimate : analysis->estimate, t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
@@ -242,7 +264,7 @@ OstStatus ost_analysis_find_reactions(OstAnalysis *analysis, OstResult *result)
     analysis->leaves_reactions = 0;
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status = ost_estimate_create(&state, &estimate);
-    OST_THEN(move_stiffness(analysis, result->t, result));
+    OST_THEN(move_for_adjoints(analysis, result->t, result));
     OST_THEN(estimate_reactions(analysis, estimate, result->t, result));
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);

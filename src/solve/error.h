@@ -15,7 +15,8 @@
  * 1e-6 or that gains nothing more.
  *
  * errors->known: 0 where the solver cannot tell. Takes one application of the preconditioner where all errors come out
- * below 1e-6, and some more steps elsewhere; `once`: never more than the one application, and no correction. */
+ * below 1e-6, and some more steps elsewhere. `enough` > 0: no more than the one application, and no correction; but a
+ * few steps where the error itself is wanted (solved->error) and that of the displacement is above that. */
 typedef struct OstSolved {
     const OstSolveReport *report;
     const double *rhs;    /* 3 × rows */
@@ -26,11 +27,11 @@ typedef struct OstSolved {
     double **internal; /* becomes the internal forces of the displacement, 3 × owned_nodes, where they were summed */
     double *error;     /* becomes the error found, 3 × node_count, ghosts included; or NULL */
 } OstSolved;
-OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, double enough,
                           OstErrors *errors);
 
 /* Collective. The same of a mixed form, of both equations; the problem is at the answer's pressure. */
-OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, double enough,
                                 OstErrors *errors);
 
 #endif

@@ -12,6 +12,7 @@
 #include "solve/distributing/distributing.h"
 #include "solve/error.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -195,7 +196,8 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
 }
 
 /* `error`: becomes that of the displacement, 3 × node_count; or NULL. */
-static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int once, double *error, OstErrors *errors)
+static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, double enough, double *error,
+                             OstErrors *errors)
 {
     const OstLinear *linear = analysis->work;
     const OstSolved solved = {&result->solve,   linear->rhs,      linear->v,         result->displacement,
@@ -210,13 +212,16 @@ static OstStatus find_errors(const OstAnalysis *analysis, OstResult *result, int
             (OstErrors){.known = estimate > 0.0, .displacement = estimate, .reaction = estimate, .stress = estimate};
         return OST_SUCCESS;
     }
-    return linear->volume ? ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, once, errors)
-                          : ost_find_errors(&state, linear->stiffness.solver, &solved, once, errors);
+    return linear->volume ? ost_find_mixed_errors(&state, linear->stiffness.solver, &solved, enough, errors)
+                          : ost_find_errors(&state, linear->stiffness.solver, &solved, enough, errors);
 }
 
 /* Where stresses are watched, what the equations leave of them is no more than this share of the discretisation error,
  * or small. */
 static const double of_watched = 0.1, small_stress = 1e-3;
+
+/* So much of the largest error of a displacement is looked at once, though it be part of a watched one. */
+static const double small_displacement = 0.1;
 
 /* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
  * energy, of reactions, of rounding. By how much an error exceeds what is good enough; INFINITY: nobody knows. */
@@ -241,7 +246,8 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
         OST_TRY(run_solver(analysis, &stop->stop, round > 0 || begins_at_start(analysis), result));
         if (!result->solve.stopped)
             return OST_SUCCESS;
-        OST_TRY(find_errors(analysis, result, 1, error, errors));
+        OST_TRY(find_errors(analysis, result, fmax(small_displacement * result->answer.displacement, DBL_MIN), error,
+                            errors));
         const double beyond = excess(errors, result);
         if (beyond <= 1.0) {
             if (error)
@@ -304,7 +310,7 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (!result->reached)
         return solved;
     if (solved == OST_SUCCESS && !result->solve.stopped)
-        OST_TRY(find_errors(analysis, result, 0, NULL, &errors));
+        OST_TRY(find_errors(analysis, result, 0.0, NULL, &errors));
     OST_TRY(describe_rhs(problem, linear, solved_for));
     if (!linear->enclosed)
         solved_for->errors = errors;

@@ -180,14 +180,14 @@ static OstStatus measure_all(Search *search, OstErrors *errors)
     return OST_SUCCESS;
 }
 
-OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, int once,
+OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, double enough,
                                 OstErrors *errors)
 {
     Search search = {.problem = problem, .solver = solver, .solved = solved};
     *errors = (OstErrors){0};
     OstStatus status = make_room(&search);
     OST_THEN(find_residuals(&search));
-    OST_THEN(once ? measure_once(&search, errors) : measure_all(&search, errors));
+    OST_THEN(enough > 0.0 ? measure_once(&search, errors) : measure_all(&search, errors));
     if (status == OST_SUCCESS && solved->error)
         memcpy(solved->error, search.error, 3 * (size_t)problem->mesh->node_count * sizeof *solved->error);
     release(&search);

@@ -79,6 +79,34 @@ large_rotation: off
 """
 
 
+# Solved by multigrid to the stop: half of a bar's twist, and of a bed's bending, was missed by steps that were short.
+WOUND = """mesh: {block: {size: [4, 1, 1], divisions: [DIVISIONS]}}
+element: {order: ORDER}
+materials: [{region: all, youngs_modulus: [1e9, 1e10, 1e9], poissons_ratio: 0.3,
+    axes: {cylindrical: {origin: [0, -0.5, -0.5], axis: [1, 0, 0], order: [radial, tangential, axial]}}}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: xmax}, moment: [1e4, 0, 0]}]
+watch: {tip: {displacement: {nearest: [4, 1, 1]}, component: z}}
+solver: {method: metric}
+"""
+BED = WOUND.split("materials")[0] + """materials: [{region: all, youngs_modulus: 1e10, poissons_ratio: 0.3}]
+springs: [{on: {boundary: zmin}, foundation: {normal: 1e10, tangential: 1e8}}]
+loads: [{on: {boundary: xmax}, total_force: [0, 0, -1e5]}]
+watch: {tip: {displacement: {nearest: [4, 0.5, 1]}, component: z}}
+solver: {method: metric}
+"""
+# A little twist beside much widening: what the stop leaves is in the twist.
+WIDENED = """mesh: {tube: {axis: z, length: 2, radii: [0.8, 1], divisions: {around: 24, radial: 2, axial: 8}}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: [1e9, 1e10, 1e9], poissons_ratio: 0.3,
+    axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}}]
+constraints: [{on: {boundary: bottom}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: inner}, pressure: 1e5}, {on: {boundary: top}, moment: [0, 0, 1e4]}]
+watch: {twist: {displacement: {nearest: [0, 1, 2]}, component: x}}
+solver: {method: metric}
+"""
+
+
 def watched(case, order, divisions, ranks=1, text=""):
     done, report, _ = solve(case.replace("ORDER", str(order)).replace("DIVISIONS", divisions) + text, ranks=ranks, folder=folder)
     check(done.exit_code == 0, done.errors)
@@ -104,8 +132,18 @@ BEAMS = (1, "20, 4, 4"), (2, "10, 2, 2")
 ratios_hold("a moved end", MOVED, "20, 4, 4", BEAMS)
 ratios_hold("an end that slides", SLID, "20, 4, 4", BEAMS, skip=("along",))
 ratios_hold("bent", BENT, "20, 4, 4", BEAMS)
+# By a hierarchy as by factors: one that was made before the body turned found a third.
+TURNED = BENT.split("  b:")[0].replace("accuracy: {relative_residual: 1e-9}\n", "").replace("[10,", "[4,").replace("[0, 0, 1]", "[0, 0, 4]")
+tips = [watched(TURNED, 2, "8, 4, 4", text=f"solver: {{method: {by}}}\n")[0]["tip"]["error"] for by in ("metric", "direct")]
+check(0.8 < tips[0] / tips[1] < 1.25, f"the error of a tip by a hierarchy and by factors: {tips}")
 ratios_hold("a rigid face", RIGID, "20, 4, 4", BEAMS)
 ratios_hold("a thin plate", PLATE, "20, 20, 2", ((2, "10, 10, 1"),))
+ratios_hold("a twisted bar", WOUND, "16, 8, 8", ((2, "8, 4, 4"),))
+ratios_hold("a bar on a bed", BED, "16, 8, 8", ((2, "8, 4, 4"),))
+stopped, solved = (watched(WIDENED + text, 2, "")[0]["twist"] for text in ("", "accuracy: {relative_residual: 1e-9}\n"))
+check(abs(solved["value"] - stopped["value"]) > 0.01 * abs(solved["value"]), f"the stop left nothing: {stopped}, {solved}")
+check(abs(sum(stopped[part] - solved[part] for part in ("value", "error"))) < 0.2 * abs(stopped["value"] - solved["value"]),
+      f"what the stop left of a twist is not in its error: {stopped}, {solved}")
 # Where nothing is watched, few steps have a part of the largest displacement's error.
 for size, whole in ("20, 20, 0.5", False), ("20, 20, 20", True):
     case = PLATE.split("watch:")[0].replace("20, 20, 0.5", size) + "solver: {method: metric}\nlarge_rotation: off\n"
