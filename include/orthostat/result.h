@@ -41,6 +41,8 @@ typedef struct OstNewtonReport {
     double linear_strain; /* largest strain and rotation (radians) of the linear solution */
     double linear_rotation;
     double linear_stiffening; /* the OstChecks' stiffening of the linear solution */
+    double linear_change;     /* of its displacement along itself by what linear theory leaves out, to first order, over
+                                 the largest displacement; 0: not looked at */
     int used;                 /* was the nonlinear problem solved, by Newton's method? What follows is 0 if not. */
     double reached;           /* load factor of the last state at rest: 1 is all of the load */
     int load_steps;           /* taken */

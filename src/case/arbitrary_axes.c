@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "case/plan.h"
 #include "case/sections.h"
 #include "case/yaml/message.h"
 #include "fields/output_field.h"
@@ -30,17 +31,36 @@ static int is_arbitrary(const OstCase *c, const OstCaseMaterial *material)
            ost_case_material_of(c, material->region) == material;
 }
 
-/* A point may lie in any region. */
+static int is_across(const OstCaseMaterial *material, const OstWatch *watch)
+{
+    const int along = watch->component - OST_STRESS_MEASURE_11;
+    return watch->kind == OST_WATCH_STRESS && along >= 0 && along < 6 && along != material->axes.single - 1;
+}
+
+/* In which region a point lies, the mesh tells (ost_warn_arbitrary_point), unless it is one of these in any case. */
+static int is_arbitrary_anywhere(const OstCase *c, const OstWatch *watch)
+{
+    int all = 1;
+    for (int i = 0; i < c->material_count; i++)
+        all &= is_arbitrary(c, &c->materials[i]) && is_across(&c->materials[i], watch);
+    return all;
+}
+
+static int is_in(const OstCase *c, const OstCaseMaterial *material, const OstWatch *watch)
+{
+    if (!watch->region)
+        return is_arbitrary_anywhere(c, watch);
+    return ost_is_every_region(watch->region) || ost_case_material_of(c, watch->region) == material;
+}
+
+static const char *const component_words[] = {" (11)", " (22)", " (33)", " (12)", " (23)", " (31)"};
+
 static void add_watches(const OstCase *c, int first, const OstCaseMaterial *material, List *list)
 {
-    static const char *const after[] = {" (11)", " (22)", " (33)", " (12)", " (23)", " (31)"};
     for (int w = first; w < c->watch_count; w++) {
         const OstWatch *watch = &c->watches[w];
-        const int along = watch->component - OST_STRESS_MEASURE_11;
-        const int everywhere = !watch->region || ost_is_every_region(watch->region);
-        if (watch->kind == OST_WATCH_STRESS && along >= 0 && along < 6 && along != material->axes.single - 1 &&
-            (everywhere || ost_case_material_of(c, watch->region) == material))
-            add(list, "", watch->name, after[along]);
+        if (is_across(material, watch) && is_in(c, material, watch))
+            add(list, "", watch->name, component_words[watch->component - OST_STRESS_MEASURE_11]);
     }
 }
 
@@ -84,36 +104,72 @@ static void list_criteria(const OstCase *c, const OstCaseMaterial *material, Lis
     }
 }
 
-static void warn(const OstCase *c, const OstCaseMaterial *material)
+static void warn(const OstCase *c, const OstCaseMaterial *material, const List *numbers, const List *criteria)
 {
     static const char *const kinds[] = {
         [OST_AXES_FIXED] = "fixed", [OST_AXES_GRADIENT] = "gradient", [OST_AXES_FIELD] = "field"};
     const int axis = material->axes.single, one = axis == 1 ? 2 : 1, other = axis == 3 ? 2 : 3;
     const int low = axis < one ? axis : one, high = axis + one - low;
     char stated[160], second[80] = "axes: {curve: {points: ..., up: ..., order: [radial, tangential, axial]}}";
-    List numbers = {.used = 0}, criteria = {.used = 0};
     snprintf(stated, sizeof stated, "region '%.80s' states e%d alone, and e%d and e%d lie anywhere across it",
              material->region, axis, one, other);
     if (material->axes.kind != OST_AXES_CURVE)
         snprintf(second, sizeof second, "axes: {%s: {e%d: ..., e%d: ...}}", kinds[material->axes.kind], low, high);
-    list_numbers(c, material, &numbers);
-    list_criteria(c, material, &criteria);
-    if (numbers.used > 0)
+    if (numbers->used > 0)
         ost_warn(c->ctx,
                  "%s:%d: %s, so that these are arbitrary numbers: %s; state a second axis, as in %s, or ask for %d%d, "
                  "von_mises, pressure or a principal stress",
-                 c->path, material->axes_place.line, stated, numbers.text, second, axis, axis);
-    if (criteria.used > 0)
+                 c->path, material->axes_place.line, stated, numbers->text, second, axis, axis);
+    if (criteria->used > 0)
         ost_warn(c->ctx,
                  "%s:%d: %s, on which these depend with its strengths: %s; state a second axis, as in %s, or go by "
                  "tsai_wu_load_factor with S%d%d = %.5g",
-                 c->path, material->axes_place.line, stated, criteria.text, second, one, other,
+                 c->path, material->axes_place.line, stated, criteria->text, second, one, other,
                  ost_criterion_even_shear(&material->material.strength, OST_TSAI_WU, axis - 1));
 }
 
 void ost_warn_arbitrary_axes(const OstCase *c)
 {
-    for (int i = 0; i < c->material_count; i++)
-        if (is_arbitrary(c, &c->materials[i]))
-            warn(c, &c->materials[i]);
+    for (int i = 0; i < c->material_count; i++) {
+        List numbers = {.used = 0}, criteria = {.used = 0};
+        if (!is_arbitrary(c, &c->materials[i]))
+            continue;
+        list_numbers(c, &c->materials[i], &numbers);
+        list_criteria(c, &c->materials[i], &criteria);
+        warn(c, &c->materials[i], &numbers, &criteria);
+    }
+}
+
+void ost_warn_arbitrary_point(const OstCase *c, const OstWatch *watch, const char *region)
+{
+    const OstCaseMaterial *material = ost_case_material_of(c, region);
+    List numbers = {.used = 0}, criteria = {.used = 0};
+    if (!material || !is_arbitrary(c, material) || !is_across(material, watch) || is_arbitrary_anywhere(c, watch))
+        return;
+    add(&numbers, "", watch->name, component_words[watch->component - OST_STRESS_MEASURE_11]);
+    warn(c, material, &numbers, &criteria);
+}
+
+/* A field that the case lists and that its materials have no values for is left out of the file. */
+
+static const struct {
+    unsigned fields;
+    OstEffect effect;
+    const char *needs;
+} need[] = {
+    {1U << OST_FIELD_AXES | 1U << OST_FIELD_E1 | 1U << OST_FIELD_E2 | 1U << OST_FIELD_E3, OST_EFFECT_ORTHOTROPY,
+     "a material that is not isotropic, or that states 'axes'"},
+    {OST_LOAD_FACTORS, OST_EFFECT_STRENGTH, "a material with 'strengths'"},
+    {1U << OST_FIELD_MIXED_PRESSURE, OST_EFFECT_MIXED,
+     "the mixed form, of quadratic tets of nearly incompressible material"},
+};
+
+void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects)
+{
+    for (size_t n = 0; n < sizeof need / sizeof *need; n++)
+        for (int f = 0; f < OST_FIELD_COUNT && !ost_effect_on(effects, need[n].effect); f++)
+            if (c->named_fields & need[n].fields & 1U << f)
+                ost_warn(c->ctx, "%s:%d: the field '%s' is left out of the output: it needs %s; %s", c->path,
+                         c->fields_line, ost_output_field((OstOutputFieldBit)f).word, need[n].needs,
+                         ost_effect_state(effects, need[n].effect)->reason);
 }

@@ -276,6 +276,8 @@ struct OstCase {
     int asks_error;    /* does the case give relative_error? Then meshes are refined until it is met */
     char *output_file; /* as written: relative to the caller's directory; or NULL */
     unsigned output_fields; /* bits of OstOutputField */
+    unsigned named_fields;  /* of them those that the case lists, */
+    int fields_line;        /* and where */
     int probe_count;
     OstProbe *probes;    /* tables of points, beside the output file */
     int envelope;        /* is one of the load cases written? */
@@ -318,6 +320,10 @@ OstStatus ost_case_located(const OstCase *c, OstPlace place, OstStatus status);
  * counts for a region of the mesh; NULL if there is none. */
 int ost_is_every_region(const char *name);
 const OstCaseMaterial *ost_case_material_of(const OstCase *c, const char *region);
+
+/* Local. Warns of a stress that is watched at a point of this region along axes of which one is stated and the others
+ * lie anywhere, unless that was true of every region, which reading the case has warned of. */
+void ost_warn_arbitrary_point(const OstCase *c, const OstWatch *watch, const char *region);
 
 /* Local. The number of a field that a material asks for, or -1. */
 int ost_case_find_field(const OstCase *c, const char *name);

@@ -131,6 +131,9 @@ typedef struct OstModuli {
 /* Local. Adds a material to the facts that the solver's plan needs: ratios of moduli, and Poisson's ratio. */
 void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, OstModuli *moduli, OstSolverFacts *facts);
 
+/* Local. Warns of fields that the output lists by name and will not hold. */
+void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects);
+
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 

@@ -203,20 +203,22 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     return OST_SUCCESS;
 }
 
-static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, unsigned *fields)
+static OstStatus read_fields(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
 #define FIELD_WORD(name, word) [name] = word,
     static const char *const words[OST_FIELD_COUNT] = {OST_OUTPUT_FIELD_TABLE(FIELD_WORD)};
 #undef FIELD_WORD
     int count;
     OST_TRY(ost_yaml_short_list(yaml, node, "a list of fields", &count));
-    *fields = 0;
+    c->named_fields = 0;
+    c->fields_line = ost_yaml_line(node);
     const OstYamlNode *item = ost_yaml_first(yaml, node);
     for (int i = 0; i < count; i++, item = ost_yaml_next(yaml, item)) {
         int field;
         OST_TRY(ost_yaml_word(yaml, item, "field", words, OST_FIELD_COUNT, &field));
-        *fields |= 1U << field;
+        c->named_fields |= 1U << field;
     }
+    c->output_fields = c->named_fields;
     return OST_SUCCESS;
 }
 
@@ -231,7 +233,7 @@ OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase 
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     if (keys[FIELDS].value)
-        OST_TRY(read_fields(yaml, keys[FIELDS].value, &c->output_fields));
+        OST_TRY(read_fields(yaml, keys[FIELDS].value, c));
     if (keys[PROBES].value)
         OST_TRY(ost_read_probes(yaml, keys[PROBES].value, &c->probe_count, &c->probes));
     if (keys[ENVELOPE].value)

@@ -103,6 +103,7 @@ static OstStatus make_plan(OstContext *ctx, const OstCase *c, OstPlan *plan)
     OST_TRY(ost_memory_free(ctx, &plan->facts.free_memory));
     ost_plan_fit(c, ost_size(ctx), plan->facts.free_memory, plan);
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    ost_warn_absent_fields(c, &plan->effects);
     return OST_SUCCESS;
 }
 

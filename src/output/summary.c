@@ -290,6 +290,8 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
            degrees * newton->linear_rotation, 100.0 * newton->linear_strain);
     if (fabs(newton->linear_stiffening) >= newton->linear_error)
         printf("leaves out that stress makes the body %s as it turns, and ", stiffened);
+    else if (newton->linear_change >= newton->linear_error && newton->linear_error > newton->accuracy)
+        printf("leaves out that the loads act on the body as it has moved, and ");
     printf("is off %s: ", off);
     if (!newton->used && newton->linear_error <= newton->accuracy)
         printf("no more than the %.2g %% allowed, solved linearly\n", 100.0 * newton->accuracy);

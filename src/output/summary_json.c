@@ -111,18 +111,20 @@ static json_t *large_rotation_json(const OstNewtonReport *newton)
 {
     if (!newton->judged)
         return json_null();
-    return json_pack(
-        "{s:o, s:f, s:o, s:o, s:o, s:b, s:f, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:b, s:i, s:o, s:b, s:f}",
-        "linear_error", ost_json_number(newton->linear_error), "accuracy", newton->accuracy, "linear_strain",
-        ost_json_number(newton->linear_strain), "linear_rotation", ost_json_number(newton->linear_rotation),
-        "linear_stiffening", ost_json_number(newton->linear_stiffening), "newton", newton->used, "load_factor",
-        newton->reached, "load_steps", newton->load_steps, "cut_backs", newton->cut_backs, "newton_iterations",
-        newton->iterations, "definite_iterations", newton->definite, "line_search_cuts", newton->cuts,
-        "linear_iterations", newton->linear_iterations, "setups", newton->setups, "newton_residual",
-        ost_json_number(newton->relative_residual), "last_correction", ost_json_number(newton->change),
-        "newton_rounding_limited", newton->rounding_limited, "jumps", newton->jumps, "jump_at",
-        newton->jumps > 0 ? ost_json_number(newton->jump_at) : json_null(), "stability_unknown",
-        newton->stability_unknown, "newton_seconds", newton->seconds);
+    return json_pack("{s:o, s:f, s:o, s:o, s:o, s:o, s:b, s:f, s:i, s:i, s:i, s:i, s:i, s:i, s:i, s:o, s:o, s:b, s:i, "
+                     "s:o, s:b, s:f}",
+                     "linear_error", ost_json_number(newton->linear_error), "accuracy", newton->accuracy,
+                     "linear_strain", ost_json_number(newton->linear_strain), "linear_rotation",
+                     ost_json_number(newton->linear_rotation), "linear_stiffening",
+                     ost_json_number(newton->linear_stiffening), "linear_change",
+                     ost_json_number(newton->linear_change), "newton", newton->used, "load_factor", newton->reached,
+                     "load_steps", newton->load_steps, "cut_backs", newton->cut_backs, "newton_iterations",
+                     newton->iterations, "definite_iterations", newton->definite, "line_search_cuts", newton->cuts,
+                     "linear_iterations", newton->linear_iterations, "setups", newton->setups, "newton_residual",
+                     ost_json_number(newton->relative_residual), "last_correction", ost_json_number(newton->change),
+                     "newton_rounding_limited", newton->rounding_limited, "jumps", newton->jumps, "jump_at",
+                     newton->jumps > 0 ? ost_json_number(newton->jump_at) : json_null(), "stability_unknown",
+                     newton->stability_unknown, "newton_seconds", newton->seconds);
 }
 
 /* What standard error warned of, and what the summary does. */

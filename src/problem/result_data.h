@@ -65,8 +65,11 @@ struct OstResult {
     double *rotation;              /* 9 × owned_tets: of each tet's mean F, where rotations are large; or NULL */
     double *tet_error;             /* owned_tets: error in the norm of the energy, or NULL */
     double *surplus;               /* 3 × node_count: what the estimate adds to the displacement, or NULL */
-    double *stress_surplus;        /* 6 × owned_tets: what it adds to the mean stress, or NULL */
-    float *node_stress_surplus;    /* 6 for each node of each tet: what it adds to the stress there, or NULL */
+    double *left_out;           /* 3 × node_count: what large rotations add to a linear displacement, to first order,
+                                   or NULL */
+    double *left_out_reaction;  /* 3 × owned_nodes: the same of the reactions, or NULL */
+    double *stress_surplus;     /* 6 × owned_tets: what it adds to the mean stress, or NULL */
+    float *node_stress_surplus; /* 6 for each node of each tet: what it adds to the stress there, or NULL */
     OstWatchedReaction *reactions; /* one for each quantity watched, or NULL */
     OstInterestError interest;     /* of the quantity that the case asks about */
     unsigned asked;                /* bits of OstOutputFieldBit */

@@ -353,6 +353,7 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
     result->newton.linear_strain = before.linear_strain;
     result->newton.linear_rotation = before.linear_rotation;
     result->newton.linear_stiffening = before.linear_stiffening;
+    result->newton.linear_change = before.linear_change;
     result->solve = newton->solve;
     result->solve.iterations = newton->report.linear_iterations;
     result->solve.relative_residual = newton->report.relative_residual;

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
+#include "solve/left_out/left_out.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
 
@@ -158,11 +159,25 @@ static OstStatus name_linear(OstContext *ctx, double linear_error)
                      100.0 * linear_error);
 }
 
+OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *result)
+{
+    OstLinear *linear = analysis->work;
+    ost_ledger_enter(analysis->ctx, OST_EFFECT_LARGE_ROTATION);
+    OstStatus status = OST_SUCCESS;
+    if (!linear->stiffness.solver)
+        status = ost_stiffness_solver_make(&linear->stiffness);
+    OST_THEN(ost_left_out_find(analysis->problem, linear->stiffness.solver, result));
+    ost_ledger_leave(analysis->ctx);
+    return status;
+}
+
 static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *solved_for)
 {
     const OstProblem *problem = analysis->problem;
     OST_TRY(ost_linear_strategy.solve(analysis, result, solved_for));
     OST_TRY(ost_nonlinear_judge(problem, result));
+    if (problem->automatic && result->newton.linear_error <= problem->accuracy)
+        OST_TRY(ost_nonlinear_look_closer(analysis, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         return OST_SUCCESS;
     if (analysis->company)

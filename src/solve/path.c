@@ -96,6 +96,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
 {
     const OstProblem *problem = path->problem;
     OstSolvedFor solved_for;
+    double most = 0.0, strained = 0.0; /* strain, and the time at which the body strains the most */
     path->decided = 1;
     if (problem->beyond_linear == OST_FORMULATION_LINEAR)
         return OST_SUCCESS;
@@ -104,6 +105,15 @@ static OstStatus decide(OstPath *path, OstResult *result)
         OST_TRY(ost_nonlinear_judge(problem, result));
         if (i == 0 || result->newton.linear_error > path->judged.linear_error)
             path->judged = result->newton;
+        if (i == 0 || result->newton.linear_strain > most)
+            strained = path->times[i];
+        most = fmax(most, result->newton.linear_strain);
+    }
+    if (problem->automatic && path->judged.linear_error <= problem->accuracy) {
+        OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
+        OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
+        path->judged.linear_change = result->newton.linear_change;
+        path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_change);
     }
     path->nonlinear = !problem->automatic || path->judged.linear_error > problem->accuracy;
     return OST_SUCCESS;

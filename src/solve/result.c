@@ -54,6 +54,8 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->rotation);
     OST_FREE((*result)->tet_error);
     OST_FREE((*result)->surplus);
+    OST_FREE((*result)->left_out);
+    OST_FREE((*result)->left_out_reaction);
     OST_FREE((*result)->node_stress_surplus);
     OST_FREE((*result)->reactions);
     OST_FREE((*result)->stress_surplus);

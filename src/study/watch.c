@@ -279,6 +279,7 @@ static OstStatus check_selection(const OstScene *scene, const char *what, const 
 OstStatus ost_watch_check(const OstScene *scene)
 {
     const OstCase *c = scene->c;
+    ost_warn_absent_fields(c, &scene->plan.effects);
     for (int w = 0; w < c->watch_count; w++) {
         OstWatch placed = c->watches[w]; /* for the warning alone: the solve finds the vertex itself */
         OST_TRY(ost_watch_place(scene->mesh, &placed));
@@ -295,18 +296,60 @@ OstStatus ost_watch_check(const OstScene *scene)
     return OST_SUCCESS;
 }
 
+/* What large rotations would make of it, to first order: they are small where this is there. */
+static OstStatus find_change(const OstScene *scene, const OstResult *result, const OstWatch *watch, double *change)
+{
+    OstContext *ctx = scene->ctx;
+    const size_t nodes = 3 * (size_t)result->mesh->node_count, owned = 3 * (size_t)result->mesh->owned_nodes;
+    OstResult straight = *result, turned;
+    OstWatched before, after;
+    straight.reactions = NULL;
+    straight.surplus = NULL;
+    turned = straight;
+    turned.displacement = turned.reaction = NULL;
+    turned.formulation = OST_FORMULATION_CONSISTENT;
+    OstStatus status = OST_NEW(ctx, &turned.displacement, nodes);
+    OST_THEN(OST_NEW(ctx, &turned.reaction, owned));
+    status = ost_agree(ctx, status);
+    for (size_t i = 0; i < nodes && status == OST_SUCCESS; i++)
+        turned.displacement[i] = result->displacement[i] + result->left_out[i];
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        turned.reaction[i] = result->reaction[i] + (result->left_out_reaction ? result->left_out_reaction[i] : 0.0);
+    OST_THEN(evaluate(scene, &straight, watch, &before));
+    OST_THEN(evaluate(scene, &turned, watch, &after));
+    OST_FREE(turned.displacement);
+    OST_FREE(turned.reaction);
+    OST_TRY(status);
+    *change = after.value - before.value;
+    return OST_SUCCESS;
+}
+
 /* Linear theory is off by a share of the largest displacement: of a small component beside a large one, as the
- * shortening of a beam that bends, that may be all. */
-static void warn_of_linear_theory(const OstResult *result, const OstWatch *watch, const OstWatched *watched)
+ * shortening of a beam that bends, or of the moment of a column that leans, that may be all. */
+static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *result, const OstWatch *watch,
+                                       const OstWatched *watched)
 {
     const OstNewtonReport *newton = &result->newton;
-    const double off = newton->linear_error * watched->scale;
-    if (watch->kind == OST_WATCH_DISPLACEMENT && newton->judged && !newton->used &&
-        newton->linear_error > worth_words && off > most_off * fabs(watched->value))
-        ost_warn(result->ctx,
-                 "'%s' is %.4g by linear theory, which may be off by %.2g, %.2g %% of the largest displacement; "
-                 "large_rotation: on computes it without",
-                 watch->name, watched->value, off, 100.0 * newton->linear_error);
+    const int may_differ =
+        watch->kind == OST_WATCH_DISPLACEMENT || (watch->kind == OST_WATCH_REACTION && result->left_out_reaction);
+    double change = newton->linear_error * watched->scale;
+    if (!newton->judged || newton->used || !may_differ)
+        return OST_SUCCESS;
+    if (!result->left_out) {
+        if (newton->linear_error > worth_words && change > most_off * fabs(watched->value))
+            ost_warn(result->ctx,
+                     "'%s' is %.4g by linear theory, which may be off by %.2g, %.2g %% of the largest displacement; "
+                     "large_rotation: on computes it without",
+                     watch->name, watched->value, change, 100.0 * newton->linear_error);
+        return OST_SUCCESS;
+    }
+    OST_TRY(find_change(scene, result, watch, &change));
+    if (fabs(change) > fmax(newton->accuracy * fabs(watched->value), worth_words * watched->scale))
+        ost_warn(
+            result->ctx,
+            "'%s' is %.4g by linear theory, and about %.4g once the body has turned; large_rotation: on computes it",
+            watch->name, watched->value, watched->value + change);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result, OstWatchedValue **values)
@@ -316,12 +359,12 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
     for (int w = 0; w < scene->c->watch_count; w++) {
         const OstWatch *watch = &scene->c->watches[w];
         OstWatched watched;
-        const OstStatus status = ost_watch_evaluate(scene, result, watch, &watched);
+        OstStatus status = ost_watch_evaluate(scene, result, watch, &watched);
+        OST_THEN(warn_of_linear_theory(scene, result, watch, &watched));
         if (status != OST_SUCCESS) {
             OST_FREE(*values);
             return status;
         }
-        warn_of_linear_theory(result, watch, &watched);
         (*values)[w] = (OstWatchedValue){watch->name,
                                          watched.value,
                                          watch->expected,

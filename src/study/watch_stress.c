@@ -257,6 +257,14 @@ static OstStatus check_region(const OstScene *scene, const OstWatch *watch)
                               everywhere ? "" : watch->region);
 }
 
+static OstStatus warn_of_axes(const OstScene *scene, const OstWatch *watch, const OstLocated *located)
+{
+    int region = located->tet >= 0 ? scene->mesh->tet_region[located->tet] : -1;
+    OST_TRY(ost_max_ints(scene->ctx, 1, &region));
+    ost_warn_arbitrary_point(scene->c, watch, scene->mesh->regions.name[region]);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch)
 {
     OstLocated located;
@@ -264,7 +272,7 @@ OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch)
         return check_region(scene, watch);
     OST_TRY(ost_locate(scene->mesh, 1, watch->at, &located));
     return located.label > 0
-               ? OST_SUCCESS
+               ? warn_of_axes(scene, watch, &located)
                : OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: '%s' is at (%g, %g, %g), which is outside the body",
                            scene->c->path, watch->line, watch->name, watch->at[0], watch->at[1], watch->at[2]);
 }

@@ -58,6 +58,7 @@ def main():
     check("no more than the 2 % allowed, solved linearly" in finished.output, finished.output)
     free_expansion(folder)
     tension(folder)
+    column(folder)
 
 
 # What expands freely is exact, though its energy is rounding.
@@ -106,6 +107,42 @@ def tension(folder):
         finished = run("solve", "bar.yaml", "-q", "--json", "-", folder=folder)
         stiffening = json.loads(finished.output)["checks"]["stiffening"]
         check(0.35 < stiffening < 0.43, f"nu {ratio}: {stiffening}: {finished.errors}")
+
+
+# A post that is pushed across under a load P: nearly all energy is that of its compression, but it goes by
+# F/P (tan(k L)/k - L), and at its foot is a moment F tan(k L)/k. Pushed a hundredth as far it is the load that shortens
+# it which makes the largest displacement, and a warning says what the watched ones will be.
+POST = """mesh: {block: {size: [0.1, 0.1, 3], divisions: [1, 1, 24]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1e10, poissons_ratio: RATIO}]
+constraints: [{on: {boundary: zmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: zmax}, total_force: [ACROSS, 0, -15000]}]
+watch:
+  top: {displacement: {nearest: [0.05, 0.05, 3]}, component: x}
+  foot: {reaction: {boundary: zmin}, about: [0.05, 0.05, 0], component: y}
+"""
+
+
+def column(folder):
+    length, along, rigidity = 3.0, 15000.0, 1e10 * 0.1**4 / 12
+    k = math.sqrt(along / rigidity)
+    for across, ratio, ranks in (30, 0, 1), (30, 0.5, 1), (0.3, 0, 2):
+        write(folder, "post.yaml", POST.replace("RATIO", str(ratio)).replace("ACROSS", str(across)))
+        finished = run("solve", "post.yaml", "--json", "post.json", folder=folder, ranks=ranks)
+        check(finished.exit_code == 0, finished.errors)
+        with open(os.path.join(folder, "post.json")) as stream:
+            report = json.load(stream)
+        newton, foot = report["large_rotation"], report["watched"]["foot"]["value"]
+        moment = -across * math.tan(k * length) / k
+        if across == 30:
+            check(newton["newton"] and 0.5 < newton["linear_change"] < 0.7, f"first of a series that adds up to 1.9: {newton}")
+            check(abs(newton["linear_stiffening"]) < 0.02 and abs(foot / moment - 1) < 0.05,  # thrice the mesh's error
+                  f"{foot} for {moment}: {newton}")
+            check("the loads act on the body as it has moved, and is off by about 6" in finished.output, finished.output)
+            continue
+        check(not newton["newton"] and newton["linear_change"] < 0.02, f"{newton}")
+        words = [text for text in report["warnings"] if "'foot' is -0.9 by linear theory, and about -1." in text]
+        check(len(words) == 1 and any("'top' is" in text for text in report["warnings"]), f"{report['warnings']}")
 
 
 main()

@@ -59,6 +59,8 @@ def main():
     odd_units(folder)
     radians(folder)
     plane_faces(folder)
+    absent_fields(folder)
+    arbitrary_points(folder)
 
 
 # A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.
@@ -136,6 +138,66 @@ def plane_faces(folder):
               warned in text] and (warned is None or len(warnings) == 1), f"order {order}: {warnings}")
         looked = run("mesh", "column.vtkhdf", folder=folder).output
         check(("4.7 % larger if the surface were curved" in looked) == (order == 1), looked)
+
+
+# A field that is asked for by name and has no values is left out of the file, with a word.
+def absent_fields(folder):
+    asked = "output: {file: a.vtu, fields: [displacement, e1, tsai_wu_load_factor, mixed_pressure]}\n"
+    need = {"'e1'": "needs a material that is not isotropic", "'tsai_wu_load_factor'": "needs a material with 'strengths'",
+            "'mixed_pressure'": "needs the mixed form"}
+    has = ZERO.replace("VALUE", "5").replace("0.3}", "0.3, strengths: {tension: 1, shear: 1}, axes: {fixed: {e1: [1, 0, 0], e3: [0, 0, 1]}}}")
+    for command in "check", "explain", "solve":
+        for text, absent in ((ZERO.replace("VALUE", "5"), set(need)), (has, {"'mixed_pressure'"})):
+            write(folder, "absent.yaml", text + asked)
+            ended = run(command, "absent.yaml", folder=folder)
+            for field, needs in need.items():
+                check((f"absent.yaml:7: the field {field} is left out of the output: it {needs}" in ended.errors) ==
+                      (field in absent), f"{command} {field}: {ended.errors}")
+    write(folder, "absent.yaml", ZERO.replace("VALUE", "5"))
+    check("left out" not in run("check", "absent.yaml", folder=folder).errors, "nothing was asked for by name")
+
+
+# Of two regions one states e3 alone: at a point of that one a stress along e1 is arbitrary.
+TWO = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+3 1 "above"
+3 2 "below"
+$EndPhysicalNames
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 0 0 -1
+$EndNodes
+$Elements
+2
+1 4 2 1 1 1 2 3 4
+2 4 2 2 2 1 3 2 5
+$EndElements
+"""
+FIBRE = """mesh: {file: two.msh}
+materials:
+  - {region: above, youngs_modulus: {plane: 1, axis: 3}, poissons_ratio: {plane: 0.3}, fibre: [0, 0, 1]}
+  - {region: below, youngs_modulus: [3, 2, 1], poissons_ratio: 0.3, axes: {fixed: {e1: [1, 0, 0], e3: [0, 0, 1]}}}
+constraints: [{on: {vertices: [1, 2, 3]}, displacement: [0, 0, 0]}]
+watch: {s: {stress: {at: [0.2, 0.2, HEIGHT]}, component: COMPONENT}}
+output: {file: two.vtu, fields: [displacement]}
+"""
+
+
+def arbitrary_points(folder):
+    write(folder, "two.msh", TWO)
+    for command in "check", "solve":
+        for height, component, warned in (0.2, 11, True), (-0.2, 11, False), (0.2, 33, False):
+            write(folder, "fibre.yaml", FIBRE.replace("HEIGHT", str(height)).replace("COMPONENT", str(component)))
+            ended = run(command, "fibre.yaml", folder=folder)
+            check(ended.exit_code == 0 and ("arbitrary numbers: s (11);" in ended.errors) == warned ==
+                  ("arbitrary" in ended.errors), f"{command} {height} {component}: {ended.errors}")
 
 
 main()

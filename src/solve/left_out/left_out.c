@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "solve/left_out/left_out.h"
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Of the correction little needs to be known: this share of it, in the norm of the energy. The residual ends a solve
+ * that knows no such error. */
+static const double enough = 0.25, least_residual = 1e-3;
+
+typedef struct Work {
+    double *force, *load, *even; /* 3 × owned_nodes: of one direction; and what both have in common */
+    double *residual, *taken;    /* 3 × rows, and the pressures, ghosts included */
+} Work;
+
+static void release(Work *work)
+{
+    OST_FREE(work->force);
+    OST_FREE(work->load);
+    OST_FREE(work->even);
+    OST_FREE(work->residual);
+    OST_FREE(work->taken);
+}
+
+static OstStatus allocate(const OstProblem *problem, Work *work)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    const size_t unknowns =
+        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? (size_t)problem->pressures->count : 0);
+    OstStatus status = OST_NEW(ctx, &work->force, owned);
+    OST_THEN(OST_NEW(ctx, &work->load, owned));
+    OST_THEN(OST_NEW(ctx, &work->even, owned));
+    OST_THEN(OST_NEW(ctx, &work->residual, unknowns));
+    OST_THEN(OST_NEW(ctx, &work->taken, unknowns));
+    return ost_agree(ctx, status);
+}
+
+/* The body goes where its loads push it, if nodes that move by at least half as far as any, and within 60 degrees of
+ * their load, do nearly all of the work. Then its energy is that of the motion that matters, and says how stress
+ * changes it (guard/linearity.h). Of a column that leans under its load it is not, nor where supports or strains move
+ * it. */
+static const double far = 0.5, along = 0.5, nearly_all = 0.9;
+
+static OstStatus is_pushed(const OstProblem *problem, const OstResult *result, double *load, int *yes)
+{
+    const OstLocal owned = problem->mesh->owned_nodes;
+    double most = 0.0, work[2] = {0.0};
+    *yes = 0;
+    if (ost_effect_on(problem->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
+        ost_field_is_eigenstrained(problem->field))
+        return OST_SUCCESS;
+    ost_problem_load(problem, result->t, NULL, load);
+    for (OstLocal node = 0; node < owned; node++)
+        most = fmax(most, ost_norm3(result->displacement + 3 * (size_t)node));
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    for (OstLocal node = 0; node < owned; node++) {
+        const double *f = load + 3 * (size_t)node, *u = result->displacement + 3 * (size_t)node;
+        const double of_node = ost_dot3(f, u), moved = ost_norm3(u);
+        work[0] += moved >= far * most && of_node >= along * ost_norm3(f) * moved ? of_node : 0.0;
+        work[1] += fabs(of_node);
+    }
+    OST_TRY(ost_sum(problem->ctx, 2, work));
+    *yes = work[0] >= nearly_all * work[1];
+    return OST_SUCCESS;
+}
+
+static void reverse(OstResult *result)
+{
+    for (size_t i = 0; i < 3 * (size_t)result->mesh->node_count; i++)
+        result->displacement[i] = -result->displacement[i];
+    for (size_t i = 0; result->pressure && i < 4 * (size_t)result->mesh->tet_count; i++)
+        result->pressure[i] = -result->pressure[i];
+}
+
+/* Subtracts half of what is out of balance in the answer, or in its reverse. */
+static OstStatus subtract_half(const OstProblem *problem, const OstResult *result, double sign, Work *work)
+{
+    const OstSystem *system = problem->system;
+    const double share = sign * ost_problem_eigen_share(problem, result->t), *u = result->displacement;
+    OST_TRY(
+        ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT, share, u, work->force, NULL));
+    if (problem->follower) {
+        OstProblem turned = *problem;
+        ost_problem_take_formulation(&turned, OST_FORMULATION_CONSISTENT);
+        ost_problem_load(&turned, result->t, u, work->load);
+        for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+            work->force[i] -= sign * work->load[i];
+    }
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        work->even[i] += 0.5 * work->force[i];
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9], kept[3];
+        ost_supports_get(problem->supports, node, projector, NULL);
+        ost_apply3(projector, work->force + 3 * (size_t)node, kept);
+        for (size_t i = 0; i < 3; i++)
+            work->residual[3 * (size_t)row + i] -= 0.5 * kept[i];
+    }
+    if (!problem->pressures)
+        return OST_SUCCESS;
+    const size_t rows = 3 * (size_t)system->matrix->rows;
+    OST_TRY(ost_pressure_volume(problem->pressures, result->field, OST_FORMULATION_CONSISTENT, share, u,
+                                work->taken + rows, NULL));
+    for (size_t i = rows; i < rows + (size_t)problem->pressures->owned; i++)
+        work->residual[i] -= 0.5 * work->taken[i];
+    return OST_SUCCESS;
+}
+
+/* What is out of balance to second order: the part that the reverse of all has too. Beyond that, a part that has turned
+ * comes out longer, and its tension would be taken for one that stiffens the body. `taken` is not needed yet. */
+static OstStatus find_residual(const OstProblem *problem, OstResult *result, Work *work)
+{
+    OstStatus status = subtract_half(problem, result, 1.0, work);
+    reverse(result);
+    OST_THEN(subtract_half(problem, result, -1.0, work));
+    reverse(result);
+    return ost_agree(problem->ctx, status);
+}
+
+static OstStatus stop_there(void *data, const double *u, double error, double *next)
+{
+    (void)data;
+    (void)u;
+    *next = error;
+    return OST_SUCCESS;
+}
+
+static OstStatus correct(const OstProblem *problem, OstSolver *solver, const Work *work)
+{
+    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    const OstErrorStop stop = {.ask = stop_there, .first = enough, .relative = 1};
+    OstSolveReport report = {0};
+    ost_solver_aim(solver, (OstSolverAim){.relative_residual = least_residual, .crude = 1, .stop = &stop});
+    const OstSaddle saddle = {problem->coupling, work->residual + rows, work->taken + rows};
+    const OstStatus status = problem->pressures
+                                 ? ost_solver_solve_mixed(solver, &saddle, work->residual, work->taken, &report)
+                                 : ost_solver_solve(solver, work->residual, work->taken, &report);
+    ost_solver_aim(solver, (OstSolverAim){0});
+    ost_log(problem->ctx, OST_LOG_VERBOSE, "large rotation: what linear theory leaves out took %d iterations",
+            report.iterations);
+    return status == OST_NOT_CONVERGED ? OST_SUCCESS : status; /* as far as it has come */
+}
+
+/* The correction of every local node. */
+static OstStatus spread(const OstProblem *problem, const double *taken, double *moved)
+{
+    const OstSystem *system = problem->system;
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9];
+        ost_supports_get(problem->supports, node, projector, NULL);
+        ost_apply3(projector, taken + 3 * (size_t)row, moved + 3 * (size_t)node);
+    }
+    return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof(double), moved));
+}
+
+/* The largest change of a node's displacement along itself, relative to the largest displacement: across, what turns
+ * moves too, but comes no further. */
+static OstStatus compare(const OstProblem *problem, const OstResult *result, const double *moved, double *change)
+{
+    double most[2] = {0.0};
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
+        const double *u = result->displacement + 3 * (size_t)node;
+        most[0] = fmax(most[0], ost_dot3(u, u));
+        most[1] = fmax(most[1], fabs(ost_dot3(moved + 3 * (size_t)node, u)));
+    }
+    OST_TRY(ost_max(problem->ctx, 2, most));
+    *change = most[0] > DBL_MIN ? most[1] / most[0] : 0.0;
+    return OST_SUCCESS;
+}
+
+/* What the corrected forces of the tets have beside the linear ones. Those of the correction's pressure would come to
+ * it in a mixed form, which has none of this. */
+static OstStatus find_reactions(const OstProblem *problem, OstResult *result, const Work *work)
+{
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    if (problem->pressures)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &result->left_out_reaction, owned)));
+    OST_TRY(ost_agree(problem->ctx, ost_internal_force_of(problem->mesh, problem->field, OST_FORMULATION_LINEAR, 0.0,
+                                                          result->left_out, result->left_out_reaction, NULL)));
+    for (size_t i = 0; i < owned; i++)
+        result->left_out_reaction[i] += work->even[i];
+    return OST_SUCCESS;
+}
+
+static OstStatus find(const OstProblem *problem, OstSolver *solver, int is_watched, OstResult *result, Work *work)
+{
+    double change = 0.0;
+    OST_TRY(find_residual(problem, result, work));
+    OST_TRY(correct(problem, solver, work));
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &result->left_out, 3 * (size_t)problem->mesh->node_count)));
+    OST_TRY(spread(problem, work->taken, result->left_out));
+    OST_TRY(compare(problem, result, result->left_out, &change));
+    ost_log(problem->ctx, OST_LOG_VERBOSE,
+            "large rotation: what linear theory leaves out changes the displacement by "
+            "%.3g",
+            change);
+    result->newton.linear_change = change;
+    result->newton.linear_error = fmax(result->newton.linear_error, change);
+    if (is_watched && result->newton.linear_error <= problem->accuracy)
+        return find_reactions(problem, result, work);
+    OST_FREE(result->left_out);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_left_out_find(const OstProblem *problem, OstSolver *solver, OstResult *result)
+{
+    const int is_watched = problem->c && problem->c->watch_count > 0;
+    Work work = {0};
+    int pushed = 0;
+    OstStatus status = allocate(problem, &work);
+    if (!is_watched)
+        OST_THEN(is_pushed(problem, result, work.load, &pushed));
+    if (!pushed)
+        OST_THEN(find(problem, solver, is_watched, result, &work));
+    release(&work);
+    return status;
+}
