@@ -18,7 +18,7 @@ static void the_polar_decomposition_gives_f_again(void **state)
         OstPolar polar;
         double f[OST_SIMD_WIDTH][9];
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-            deformation(20u + (unsigned)slot, stretches[s][slot], f[slot]);
+            deformation(20u + (unsigned)slot, stretches[s][slot % 4], f[slot]);
             for (int n = 0; n < 9; n++)
                 slope[n][slot] = f[slot][n] - (n % 4 == 0);
         }
@@ -28,7 +28,7 @@ static void the_polar_decomposition_gives_f_again(void **state)
             double r[9], again[9] = {0.0}, unit[2][9];
             const double size = fmax(1.0, largest_of(9, f[slot]));
             /* Stretches below 1e-8 of the largest are rounding errors in F'F, and so are their directions. */
-            const double small = polar.stretch[1][slot] < 1e-8 ? 1e-8 : 0.0;
+            const double small = stretches[s][slot % 4][1] < 1e-8 ? 1e-8 : 0.0;
             for (int n = 0; n < 9; n++) {
                 double v[3][3], a[3][3];
                 for (int k = 0; k < 9; k++) {
