@@ -69,6 +69,8 @@ static OstStatus create(OstEstimate *estimate)
     estimate->enough_of_adjoint = is_quadratic ? estimate->enough : enough_of_locked;
     estimate->enough_of_adjoint.by_left = 0;
     OstStatus status = ost_light_tets_create(problem, &estimate->complement, stiffness->unit, &stiffness->light);
+    OST_THEN(
+        ost_surplus_loads_bed(&estimate->loads, &estimate->complement, stiffness->unit, &estimate->complement.bed));
     OST_THEN(OST_NEW(problem->ctx, &estimate->factor, OST_PER_BLOCK * (size_t)estimate->complement.count));
     return ost_agree(problem->ctx, status);
 }

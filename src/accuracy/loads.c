@@ -306,22 +306,43 @@ static void add_follower(const OstComplement *complement, const OstFollower *fol
     }
 }
 
+/* What a foundation takes at a point of a face that has moved: -S moved, times `weight`. */
+static void push_back(const struct OstFoundation *foundation, const double normal[3], double weight,
+                      const double moved[3], double force[3])
+{
+    const double *direction = ost_norm3(foundation->direction) > 0.0 ? foundation->direction : normal;
+    const double along = (foundation->along - foundation->across) * ost_dot3(direction, moved);
+    for (int i = 0; i < 3; i++)
+        force[i] = -weight * (foundation->across * moved[i] + along * direction[i]);
+}
+
+/* The unit normal at a point, and its weight in an integral over the face. */
+static double open_point(const Face *face, const OstQuadraturePoint *point, double normal[3])
+{
+    double area[3];
+    ost_shape_area_vector(face->node_count, point->at, face->x, area);
+    const double size = ost_norm3(area);
+    for (int i = 0; i < 3; i++)
+        normal[i] = area[i] / size;
+    return 0.5 * point->weight * size;
+}
+
+/* The elements' foundation acts at the middles of edges (assembly/springs.h), and nothing keeps the vertices of a stiff
+ * one near: what it takes is linear between the middles. */
 static void load_foundation_face(const OstComplement *complement, const struct OstFoundation *foundation,
                                  const Face *face, const double *u, double *force)
 {
     for (int q = 0; q < ost_triangle_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_triangle_degree5.point[q];
-        double values[OST_MAX_FACE_NODES], area[3], moved[3], direction[3], at_point[3];
-        ost_shape_values(face->node_count, point->at, values);
-        ost_shape_place(face->node_count, values, u, moved);
-        ost_shape_area_vector(face->node_count, point->at, face->x, area);
-        const double size = ost_norm3(area), weight = 0.5 * point->weight * size;
+        const double *at = point->at;
+        double normal[3], moved[3], at_point[3];
         for (int i = 0; i < 3; i++)
-            direction[i] = ost_norm3(foundation->direction) > 0.0 ? foundation->direction[i] : area[i] / size;
-        const double along = (foundation->along - foundation->across) * ost_dot3(direction, moved);
-        for (int i = 0; i < 3; i++)
-            at_point[i] = -weight * (foundation->across * moved[i] + along * direction[i]);
-        share_over_face(complement, face, point->at, at_point, force);
+            moved[i] = face->node_count == 6 ? (1.0 - 2.0 * at[2]) * u[9 + i] + (1.0 - 2.0 * at[0]) * u[12 + i] +
+                                                   (1.0 - 2.0 * at[1]) * u[15 + i]
+                                             : at[0] * u[i] + at[1] * u[3 + i] + at[2] * u[6 + i];
+        const double weight = open_point(face, point, normal);
+        push_back(foundation, normal, weight, moved, at_point);
+        share_over_face(complement, face, at, at_point, force);
     }
 }
 
@@ -337,6 +358,40 @@ static void add_foundation_force(const OstComplement *complement, const struct O
         ost_gather3(n, nodes, u, moved);
         load_foundation_face(complement, foundation, &face, moved, force);
     }
+}
+
+/* What a foundation adds to the blocks of a face's functions; what it couples is left out. */
+static void add_bed_of_face(const struct OstFoundation *foundation, const Face *face, double divisor, double *bed)
+{
+    for (int q = 0; q < ost_triangle_degree5.count; q++) {
+        double values[4], normal[3];
+        const double weight = open_point(face, &ost_triangle_degree5.point[q], normal);
+        ost_complement_face_values(face->node_count == 6, ost_triangle_degree5.point[q].at, values);
+        for (int p = 0; p < 6; p++) {
+            const int row = p % 3, column = p < 3 ? p : (p + 1) % 3;
+            double moved[3] = {0.0}, force[3];
+            moved[column] = 1.0;
+            push_back(foundation, normal, weight / divisor, moved, force);
+            for (int k = 0; k < face->count; k++)
+                bed[6 * (size_t)face->function[k] + (size_t)p] -= values[k] * values[k] * force[row];
+        }
+    }
+}
+
+OstStatus ost_surplus_loads_bed(const OstSurplusLoads *loads, const OstComplement *complement, double divisor,
+                                double **bed)
+{
+    if (!loads->foundation)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(complement->mesh->ctx, bed, 6 * (size_t)complement->count));
+    for (const struct OstFoundation *foundation = loads->foundation; foundation; foundation = foundation->next)
+        for (OstLocal f = 0; f < foundation->count; f++) {
+            Face face;
+            open_face(complement, foundation->nodes_per_face,
+                      foundation->faces + (size_t)foundation->nodes_per_face * (size_t)f, &face);
+            add_bed_of_face(foundation, &face, divisor, *bed);
+        }
+    return OST_SUCCESS;
 }
 
 void ost_surplus_loads_add(const OstSurplusLoads *loads, const OstProblem *problem, const OstComplement *complement,

@@ -22,6 +22,11 @@ typedef struct OstSurplusLoads {
 OstStatus ost_surplus_loads_create(const OstProblem *problem, const OstComplement *complement, OstSurplusLoads *loads);
 void ost_surplus_loads_clear(OstSurplusLoads *loads);
 
+/* Local. What elastic foundations add to the functions' own blocks (OstComplement.bed), over `divisor`; *bed stays as
+ * it is where there are none. */
+OstStatus ost_surplus_loads_bed(const OstSurplusLoads *loads, const OstComplement *complement, double divisor,
+                                double **bed);
+
 /* Local. Adds the loads at t and u to `force` (3 numbers for each function): dead ones, pressures that follow the
  * surface, and those of elastic foundations. */
 void ost_surplus_loads_add(const OstSurplusLoads *loads, const OstProblem *problem, const OstComplement *complement,

@@ -93,6 +93,7 @@ static OstStatus multiply(OstSteps *steps)
     ost_operator_apply(stiffness, steps->u, steps->p.functions, steps->force, steps->q.functions);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0 / stiffness->unit, steps->u, steps->force);
+    ost_complement_add_bed(stiffness->complement, steps->p.functions, steps->q.functions);
     ost_complement_project(stiffness->complement, steps->q.functions);
     return ost_steps_take_rows(steps, steps->q.rows);
 }

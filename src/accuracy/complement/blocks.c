@@ -63,7 +63,7 @@ static inline void factor_eight(Eight a[6])
 /* Are `WIDTH` functions from `first` on all there, free, and this rank's? */
 static int are_free(const OstComplement *complement, OstLocal first)
 {
-    int all = first + WIDTH <= complement->count;
+    int all = first + WIDTH <= complement->count && !complement->bed;
     for (OstLocal k = first; all && k < first + WIDTH; k++)
         all = complement->support[k] < 0 && ost_complement_owns(complement, k);
     return all;

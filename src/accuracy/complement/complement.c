@@ -22,6 +22,7 @@ void ost_complement_clear(OstComplement *complement)
     OST_FREE(complement->supported);
     OST_FREE(complement->projector);
     OST_FREE(complement->turned);
+    OST_FREE(complement->bed);
 }
 
 int ost_complement_per_tet(const OstComplement *complement)
@@ -193,12 +194,23 @@ void ost_complement_project(const OstComplement *complement, float *values)
            (size_t)(complement->faces.count - complement->owned_faces) * size);
 }
 
+void ost_complement_add_bed(const OstComplement *complement, const float *w, float *forces)
+{
+    static const int of[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    for (size_t k = 0; k < (size_t)complement->count && complement->bed; k++)
+        for (size_t n = 0; n < 9; n++)
+            forces[OST_PER_FUNCTION * k + n / 3] +=
+                (float)complement->bed[6 * k + (size_t)of[n]] * w[OST_PER_FUNCTION * k + n % 3];
+}
+
 void ost_complement_constrain_block(const OstComplement *complement, OstLocal function, double symmetric[6])
 {
     static const int of[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2}, place[6] = {0, 4, 8, 1, 5, 6};
     const OstLocal support = complement->support[function];
-    const double size = (symmetric[0] + symmetric[1] + symmetric[2]) / 3.0;
     double block[9], inner[9], left[9];
+    for (int p = 0; p < 6 && complement->bed; p++)
+        symmetric[p] += complement->bed[6 * (size_t)function + (size_t)p];
+    const double size = (symmetric[0] + symmetric[1] + symmetric[2]) / 3.0;
     if (support < 0)
         return;
     const double *projector = complement->projector + 9 * (size_t)support;

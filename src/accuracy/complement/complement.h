@@ -22,8 +22,10 @@ typedef struct OstComplement {
     struct OstHalo *edge_halo, *face_halo;
     OstLocal *support; /* count: index of its projector, or -1: it is free */
     OstLocal support_count;
-    OstLocal *supported;   /* the functions that are not free */
-    double *projector;     /* 9 for each of them */
+    OstLocal *supported; /* the functions that are not free */
+    double *projector;   /* 9 for each of them */
+    double *bed;         /* 6 for each function (11 22 33 12 23 31): what elastic foundations add to its block, over the
+                          * operator's unit; or NULL */
     unsigned char *turned; /* of each quadratic tet: bit e, if edge e of it is taken from b to a; else NULL */
 } OstComplement;
 
@@ -68,8 +70,11 @@ OstStatus ost_complement_import(const OstComplement *complement, float *values);
 /* Local. Takes from owned functions' values what their constraints do not allow, and all from those of ghosts. */
 void ost_complement_project(const OstComplement *complement, float *values);
 
-/* Local. Adds s (I - P) to a function's 3×3 block A of a stiffness (11 22 33 12 23 31), reduced to P A P, if the
- * function is constrained: P is the projector on the directions that are left, s of the size of A. */
+/* Local. Adds to forces on the functions what their beds take at w. */
+void ost_complement_add_bed(const OstComplement *complement, const float *w, float *forces);
+
+/* Local. Adds its bed to a function's 3×3 block A of a stiffness (11 22 33 12 23 31); and s (I - P) to it, reduced to
+ * P A P, if the function is constrained: P is the projector on the directions that are left, s of the size of A. */
 void ost_complement_constrain_block(const OstComplement *complement, OstLocal function, double symmetric[6]);
 
 /* Local. Of functions at barycentric coordinates, their values: of a tet (6 or 10), or of a face (3 or 4), with edges
