@@ -16,20 +16,24 @@ from .problem import Analysis, Path, Problem, axes_of, take_result
 from .result import Result
 
 
-def _plain(value):
-    """What json knows, for numpy's arrays and numbers, and paths; in lists None and nan are the case's `free`."""
+_MAY_BE_FREE = ("displacement", "rotation")
+
+
+def _plain(value, key=None):
+    """What json knows, for numpy's arrays and numbers, and paths; in lists None is the case's `free`, and so is nan in
+    those of displacements: elsewhere it is a mistake, which the case's reader names."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {name: _plain(item, name) for name, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return ["free" if item is None or item != item else _plain(item) for item in value]
+        return ["free" if item is None or (item != item and key in _MAY_BE_FREE) else _plain(item, key) for item in value]
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
 def _text_of(sections):
     """A dict as the text of a case, a line for each section: messages name the line."""
-    return "{" + ",\n".join(f"{json.dumps(key)}: {json.dumps(_plain(value))}" for key, value in sections.items()) + "\n}\n"
+    return "{" + ",\n".join(f"{json.dumps(key)}: {json.dumps(_plain(value, key))}" for key, value in sections.items()) + "\n}\n"
 
 
 def _value(value):

@@ -124,6 +124,11 @@ static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const 
     if (path && c->verify)
         return ost_yaml_raise(yaml, path,
                               "a case with a verify section is solved at t = 1 alone; leave out one of them");
+    if (path && c->asks_error)
+        ost_warn(c->ctx,
+                 "%s:%d: a path is solved on the mesh as it is, and 'accuracy: {relative_error}' refines none; it says "
+                 "how far linear theory may be off, and no more",
+                 c->path, ost_yaml_line(path));
     if (path || c->table_count == 0)
         return OST_SUCCESS;
     return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,

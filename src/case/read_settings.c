@@ -54,10 +54,13 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
         if (strcmp(c->watches[w].name, name) == 0)
             c->interest = w + 1;
     if (c->interest == 0)
-        return ost_yaml_raise(yaml, node,
-                              "'%.80s' is not watched; name a quantity of the section 'watch', or energy for the norm "
-                              "of the energy",
-                              name);
+        return ost_yaml_raise(
+            yaml, node,
+            "'%.80s' is not watched%s; name a quantity of the section 'watch', or energy for the norm of the energy",
+            name,
+            ost_yaml_has(yaml, yaml->node, "cases")
+                ? " in all load cases: what 'cases' adds to one alone does not count"
+                : "");
     if (ost_watch_is_of_stress(&c->watches[c->interest - 1]))
         return ost_yaml_raise(yaml, node,
                               "'%.80s' is a %s, for whose error no mesh is refined; name a displacement, a reaction or "

@@ -67,10 +67,10 @@ static void folder_of(const char *path, char folder[OST_LONGEST_PATH])
     snprintf(folder, OST_LONGEST_PATH, "%.*s", length > 0 ? length : 1, length > 0 ? path : ".");
 }
 
-static int is_same_existing_file(const char *path, const char *other)
+int ost_cli_is_same_file(const char *path, const char *other)
 {
     struct stat a, b;
-    return other && stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    return path && other && stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 /* The same file, or the same name in the same folder where there is none yet. */
@@ -79,21 +79,21 @@ static int is_same_place(const char *path, const char *other)
     char one[OST_LONGEST_PATH], two[OST_LONGEST_PATH];
     folder_of(path, one);
     folder_of(other, two);
-    return is_same_existing_file(path, other) ||
-           (strcmp(name_in_folder(path), name_in_folder(other)) == 0 && is_same_existing_file(one, two));
+    return ost_cli_is_same_file(path, other) ||
+           (strcmp(name_in_folder(path), name_in_folder(other)) == 0 && ost_cli_is_same_file(one, two));
 }
 
 static int is_list_of(const OstSelection *on, const char *path)
 {
-    return is_same_existing_file(path, on->vertices_file);
+    return ost_cli_is_same_file(path, on->vertices_file);
 }
 
 /* Names the file that the case reads at this path; NULL if it reads none there. */
 static const char *input_at(const OstCase *c, const char *path)
 {
-    if (is_same_existing_file(path, c->path))
+    if (ost_cli_is_same_file(path, c->path))
         return "the case itself";
-    if (is_same_existing_file(path, c->mesh_file))
+    if (ost_cli_is_same_file(path, c->mesh_file))
         return "the mesh that the case reads";
     if (c->mesh_file && access(path, F_OK) == 0 && ost_mesh_file_reads(c->ctx, c->mesh_file, path))
         return "a file that the mesh includes";
@@ -107,7 +107,7 @@ static const char *input_at(const OstCase *c, const char *path)
         if (is_list_of(&c->watches[i].on, path))
             return "a list of vertices that the case reads";
     for (int i = 0; i < c->material_count; i++)
-        if (is_same_existing_file(path, c->materials[i].axes.cells_file))
+        if (ost_cli_is_same_file(path, c->materials[i].axes.cells_file))
             return "axes that the case reads";
     return NULL;
 }

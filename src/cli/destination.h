@@ -23,6 +23,9 @@ OstStatus ost_check_probe_outputs(const OstCase *c, const char *fields, const ch
 /* Collective. Can the files of all load cases of the case be written beside `output`? Raises likewise. */
 OstStatus ost_check_case_outputs(const OstCase *c, const char *output);
 
+/* Local. Are these one file, which is there? NULL is none. */
+int ost_cli_is_same_file(const char *path, const char *other);
+
 /* Local. Does "-", standard output, stand for the path? NULL does not. */
 int ost_cli_is_stdout(const char *path);
 

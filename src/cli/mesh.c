@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "cli/command.h"
+#include "cli/destination.h"
 #include "cli/installed.h"
 #include "cli/mesh_report.h"
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/parallel/reduce.h"
 #include "formats/export/export.h"
 #include "formats/serial/chunk_tidy.h"
 #include "formats/serial/formats.h"
@@ -172,12 +174,27 @@ static OstStatus draw(const OstMesh *mesh, const char *picture)
     return ost_agree(mesh->ctx, status);
 }
 
+/* What is read is never written over: a run that is ended half way would leave neither. */
+static OstStatus check_files(OstContext *ctx, const Request *request)
+{
+    const char *const made[] = {request->out, request->text['j'], request->text['p']};
+    for (int i = 0; i < 3; i++) {
+        int is_input = ost_rank(ctx) == 0 && ost_cli_is_same_file(made[i], request->in);
+        OST_TRY(ost_max_ints(ctx, 1, &is_input));
+        if (is_input)
+            return OST_RAISE(ctx, OST_INVALID_USAGE,
+                             "'%s' would be written over the mesh that is read; name another file", made[i]);
+    }
+    return OST_SUCCESS;
+}
+
 static OstStatus work(OstContext *ctx, void *input)
 {
     const Request *request = input;
     OstMeshChunk *chunk = NULL;
     OstMesh *mesh = NULL;
     OstStatus status = OST_SUCCESS;
+    OST_TRY(check_files(ctx, request));
     if (request->out)
         OST_TRY(ost_mesh_export_check(ctx, request->out));
     OST_TRY(ost_cli_check_picture(ctx, request->text['p']));

@@ -142,6 +142,12 @@ static OstStatus read_limits(const Run *run, OstAdaptLimits *limits)
     OST_TRY(read_limit(run, 't', "max-time", &limits->seconds));
     OST_TRY(read_limit(run, 'm', "max-memory", &limits->bytes));
     limits->bytes *= gibibyte;
+    const char *const idle = run->arguments->text['t'] ? "max-time" : run->arguments->text['m'] ? "max-memory" : NULL;
+    if (idle && (!run->c->asks_error || run->c->path_steps > 0))
+        ost_warn(run->c->ctx, "%s: --%s limits how far meshes are refined, and this case refines none: %s",
+                 run->c->path, idle,
+                 run->c->path_steps > 0 ? "a path is solved on the mesh as it is"
+                                        : "it has no 'accuracy: {relative_error}'");
     return OST_SUCCESS;
 }
 

@@ -15,8 +15,8 @@
 
 enum { LONGEST_PATH = 4096 };
 
-OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched, const char *file,
-                             OstLoadCaseReport *report)
+OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched,
+                             const OstAdaption *adaption, const char *file, OstLoadCaseReport *report)
 {
     OstContext *ctx = scene->ctx;
     report->is_known = 1;
@@ -34,6 +34,8 @@ OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, Ost
         report->json = ost_summary_json(scene, result, NULL, watched, file);
         if (report->json)
             json_object_set_new_nocheck(report->json, "load_case", json_string(report->name));
+        if (report->json && adaption)
+            json_object_set_new(report->json, "adaption", ost_adaption_json(adaption));
     }
     return OST_SUCCESS;
 }
@@ -148,9 +150,17 @@ static double factor_of(const OstLoadCaseReport *report, int criterion)
     return factor < OST_MOST_LOAD_FACTOR ? factor : NAN;
 }
 
+static int is_answer(const OstLoadCaseReport *report)
+{
+    return report->status == OST_SUCCESS || report->is_short;
+}
+
 static const char *state_of(const OstLoadCaseReport *report)
 {
-    return report->status == OST_SUCCESS ? "accepted" : report->is_known ? "refused" : "failed";
+    return report->is_short                ? "not met"
+           : report->status == OST_SUCCESS ? "accepted"
+           : report->is_known              ? "refused"
+                                           : "failed";
 }
 
 typedef struct Table {
@@ -212,7 +222,7 @@ static void print_first_to_fail(const Table *table)
     for (int c = 0; table->failing && c < OST_CRITERIA; c++) {
         const OstLoadCaseReport *first = NULL;
         for (int k = 0; k < table->count; k++)
-            if (table->reports[k].status == OST_SUCCESS && isfinite(factor_of(&table->reports[k], c)) &&
+            if (is_answer(&table->reports[k]) && isfinite(factor_of(&table->reports[k], c)) &&
                 (!first || factor_of(&table->reports[k], c) < factor_of(first, c)))
                 first = &table->reports[k];
         if (!first)
@@ -254,7 +264,7 @@ static void print_rows(const Table *table)
                 printf(" %14.8g", value_of(report, table->columns.name[w]));
             else
                 printf(" %14s", "-");
-        puts(report->status == OST_SUCCESS ? "" : "  NO ANSWER");
+        puts(report->is_short ? "  NOT MET" : is_answer(report) ? "" : "  NO ANSWER");
     }
 }
 
@@ -309,7 +319,7 @@ OstStatus ost_load_cases_write_json(const OstScene *scene, int count, OstLoadCas
         return OST_SUCCESS;
     }
     for (int k = 0; k < count; k++) {
-        accepted &= reports[k].status == OST_SUCCESS;
+        accepted &= is_answer(&reports[k]);
         nonzeros = fmax(nonzeros, reports[k].nonzeros);
         json_array_append_new(cases, case_json(&reports[k]));
     }

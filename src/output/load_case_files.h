@@ -15,7 +15,8 @@ typedef struct OstLoadCaseReport {
     const OstCase *c;
     const char *name;
     OstStatus status;
-    char *failure; /* why there is no answer; NULL if there is one */
+    char *failure; /* why there is no answer, or no more accurate one; NULL if there is one */
+    int is_short;  /* is there an answer, but not as accurate as it was asked to be? */
     int is_known;  /* are the numbers below there? */
     double largest_displacement, strain_energy;
     double relative_error; /* that the mesh makes; NAN if not known */
@@ -27,9 +28,10 @@ typedef struct OstLoadCaseReport {
     struct json_t *json;      /* as of a single run, on rank 0 */
 } OstLoadCaseReport;
 
-/* Local. Takes the numbers of a result, its quantities of interest, and the file that it was written to, or NULL. */
-OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched, const char *file,
-                             OstLoadCaseReport *report);
+/* Local. Takes the numbers of a result, its quantities of interest, its levels, or NULL, and the file that it was
+ * written to, or NULL. */
+OstStatus ost_load_case_note(const OstScene *scene, const OstResult *result, OstWatchedValue *watched,
+                             const OstAdaption *adaption, const char *file, OstLoadCaseReport *report);
 void ost_load_case_report_release(OstLoadCaseReport *report);
 
 /* Local. Do the fields of all go into one file? */

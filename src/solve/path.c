@@ -112,6 +112,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
     if (problem->automatic && path->judged.linear_error <= problem->accuracy) {
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
         OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
+        OST_FREE(result->left_out, result->left_out_reaction); /* of that time alone */
         path->judged.linear_change = result->newton.linear_change;
         path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_change);
     }

@@ -236,3 +236,17 @@ for entry, words in (("combine: {pres: 1}", "unknown key 'pres' in cases[6].comb
     refused = run("check", "wrong.yaml", folder=folder)
     check(refused.exit_code == 2 and words in refused.errors and "wrong.yaml:" in refused.errors,
           f"{entry}: {refused.errors}")
+
+# --- an accuracy that is not met within the time, which all share: there are answers, and all say so ---
+coarse = CASE.replace("accuracy: {relative_residual: 1e-11}", "accuracy: {relative_error: 1e-3}").replace("beam.vtkhdf", "beam.vtu")
+folder = folder_with(coarse)
+finished = run("solve", "beam.yaml", "--output", "beam.vtu", "--max-time", "0.4", "--json", "beam.json", folder=folder)
+report = read_json(folder, "beam.json")
+count = len(report["cases"])
+check(finished.exit_code == 1 and f"{count} of {count} load cases are not as accurate as asked for, and were written" in
+      finished.errors and finished.output.count("  NOT MET") == count, finished.errors)
+with open(os.path.join(folder, "beam_cases.csv")) as stream:
+    check({row["status"] for row in csv.DictReader(stream)} == {"not met"}, "the table's status")
+for one in report["cases"]:
+    check(one["accepted"] and one["adaption"]["end"] == "out of time" and not one["adaption"]["met"] and
+          os.path.exists(os.path.join(folder, one["output"])), one["adaption"])

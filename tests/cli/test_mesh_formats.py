@@ -330,3 +330,7 @@ check(run("mesh", "turned.mesh", folder=folder).exit_code == 2, "an inverted tet
 check(inspect("turned.mesh", "--orient", "--merge", "1e-6")["tets"] == 2, "and turned where that is asked for")
 for times in "9", "-1", str(2**32 + 1):
     check(run("mesh", "turned.mesh", "--refine", times, folder=folder).exit_code == 2, f"{times} refinements are refused")
+for output in (["fine.msh"], ["--json", "./fine.msh"]):  # what is read is not written over
+    refused = run("mesh", "fine.msh", *output, folder=folder)
+    check(refused.exit_code == 2 and "would be written over the mesh that is read" in refused.errors, refused.errors)
+    check(inspect("fine.msh")["tets"] == fine["tets"], "fine.msh is still there")

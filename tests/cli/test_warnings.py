@@ -61,6 +61,7 @@ def main():
     plane_faces(folder)
     absent_fields(folder)
     arbitrary_points(folder)
+    nothing_to_refine(folder)
 
 
 # A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.
@@ -198,6 +199,21 @@ def arbitrary_points(folder):
             ended = run(command, "fibre.yaml", folder=folder)
             check(ended.exit_code == 0 and ("arbitrary numbers: s (11);" in ended.errors) == warned ==
                   ("arbitrary" in ended.errors), f"{command} {height} {component}: {ended.errors}")
+
+
+# Limits of refinement, where nothing is refined.
+def nothing_to_refine(folder):
+    case, asks = ZERO.replace("VALUE", "1e-3"), "accuracy: {relative_error: 0.9}\n"
+    for text, limit, path in ((case, True, False), (case + asks, False, False), (case + asks + "path: {steps: 1}\n", True, True)):
+        write(folder, "fixed.yaml", text)
+        ended = run("solve", "fixed.yaml", "--max-time", "60", "--output", "fixed.vtkhdf", folder=folder)
+        check(ended.exit_code == 0 and ("--max-time limits how far meshes are refined" in ended.errors) == limit and
+              ("fixed.yaml:8: a path is solved on the mesh as it is" in ended.errors) == path, f"{text}: {ended.errors}")
+        check(("a path is solved" in run("check", "fixed.yaml", folder=folder).errors) == path, text)
+    write(folder, "of.yaml", case + "accuracy: {relative_error: 0.1, of: tip}\n"
+          "cases: [{name: a, watch: {tip: {displacement: {nearest: [0, 0, 1]}, component: x}}}, {name: b}]\n")
+    ended = run("check", "of.yaml", folder=folder)
+    check(ended.exit_code == 2 and "'tip' is not watched in all load cases: what 'cases' adds to one" in ended.errors, ended.errors)
 
 
 main()

@@ -64,6 +64,8 @@ def a_uniform_stretch_has_the_formula(folder):
     assert changed.title == "x"
     close(changed.solve().watch["end"].value, 0.004, 1e-6)
     raises(orthostat.InvalidInput, "did you mean 'title'", orthostat.Case, BAR, settings={"titel": "x"})
+    loads = [{"on": {"boundary": "xmax"}, "total_force": [0, float("nan"), 0]}]
+    raises(orthostat.InvalidInput, "NaN', expected a finite number", orthostat.Case, {**BAR, "loads": loads})
     result.write(os.path.join(folder, "bar.vtkhdf"), fields=["displacement", "stress"])
     assert open(os.path.join(folder, "bar.vtkhdf"), "rb").read(8) == b"\x89HDF\r\n\x1a\n"
 

@@ -49,15 +49,10 @@ static OstStatus allocate(const OstProblem *problem, Work *work)
  * it. */
 static const double far = 0.5, along = 0.5, nearly_all = 0.9;
 
-static OstStatus is_pushed(const OstProblem *problem, const OstResult *result, double *load, int *yes)
+static OstStatus measure_push(const OstProblem *problem, const OstResult *result, const double *load, int *yes)
 {
     const OstLocal owned = problem->mesh->owned_nodes;
     double most = 0.0, work[2] = {0.0};
-    *yes = 0;
-    if (ost_effect_on(problem->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
-        ost_field_is_eigenstrained(problem->field))
-        return OST_SUCCESS;
-    ost_problem_load(problem, result->t, NULL, load);
     for (OstLocal node = 0; node < owned; node++)
         most = fmax(most, ost_norm3(result->displacement + 3 * (size_t)node));
     OST_TRY(ost_max(problem->ctx, 1, &most));
@@ -70,6 +65,20 @@ static OstStatus is_pushed(const OstProblem *problem, const OstResult *result, d
     OST_TRY(ost_sum(problem->ctx, 2, work));
     *yes = work[0] >= nearly_all * work[1];
     return OST_SUCCESS;
+}
+
+static OstStatus is_pushed(const OstProblem *problem, const OstResult *result, int *yes)
+{
+    double *load = NULL;
+    *yes = 0;
+    if (ost_effect_on(problem->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
+        ost_field_is_eigenstrained(problem->field))
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes)));
+    ost_problem_load(problem, result->t, NULL, load);
+    const OstStatus status = measure_push(problem, result, load, yes);
+    OST_FREE(load);
+    return status;
 }
 
 static void reverse(OstResult *result)
@@ -217,11 +226,12 @@ OstStatus ost_left_out_find(const OstProblem *problem, OstSolver *solver, OstRes
     const int is_watched = problem->c && problem->c->watch_count > 0;
     Work work = {0};
     int pushed = 0;
-    OstStatus status = allocate(problem, &work);
     if (!is_watched)
-        OST_THEN(is_pushed(problem, result, work.load, &pushed));
-    if (!pushed)
-        OST_THEN(find(problem, solver, is_watched, result, &work));
+        OST_TRY(is_pushed(problem, result, &pushed));
+    if (pushed)
+        return OST_SUCCESS;
+    OstStatus status = allocate(problem, &work);
+    OST_THEN(find(problem, solver, is_watched, result, &work));
     release(&work);
     return status;
 }

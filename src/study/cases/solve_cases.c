@@ -4,6 +4,7 @@
 #include "case/plan.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/reduce.h"
 #include "core/progress.h"
 #include "orthostat/load_cases.h"
 #include "output/envelope.h"
@@ -13,6 +14,7 @@
 #include "study/forecast/show.h"
 #include "study/watch.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,6 +30,7 @@ typedef struct Run {
     OstEnvelope *envelope;     /* NULL: none is asked for */
     OstLoadCaseReport *report; /* of each */
     OstStatus failed;          /* how the first that failed did */
+    double start;              /* on the clock (ost_seconds) */
 } Run;
 
 static int prints(const Run *run)
@@ -72,7 +75,7 @@ static OstStatus take_result(Run *run, const OstScene *scene, const OstResult *r
         if (ost_rank(ctx) == 0)
             puts("");
     }
-    return ost_agree(ctx, ost_load_case_note(scene, result, watched, file, report));
+    return ost_agree(ctx, ost_load_case_note(scene, result, watched, adaption, file, report));
 }
 
 /* What is wrong with one load case keeps no other from being solved; what is wrong with the machine does. */
@@ -130,18 +133,31 @@ static OstStatus solve_together(Run *run)
     return status;
 }
 
+/* The time that is left is shared by the cases that are left: what one does not need others have. */
+static OstStatus share_limits(const Run *run, int number, OstAdaptLimits *limits)
+{
+    double elapsed = ost_seconds() - run->start;
+    OST_TRY(ost_max(run->ctx, 1, &elapsed));
+    *limits = *run->how->limits;
+    limits->seconds = fmax(limits->seconds - elapsed, 0.0) / (run->c->load_case_count - number);
+    return OST_SUCCESS;
+}
+
 /* Each on a mesh of its own, refined where its error is. */
 static OstStatus solve_accurately(Run *run, int number)
 {
     OstAdaption *adaption = NULL;
+    OstAdaptLimits limits;
     OstLoadCaseReport *report = &run->report[number];
-    OstStatus status = ost_adapt(run->c->load_cases[number].c, run->how->limits, &adaption);
+    OST_TRY(share_limits(run, number, &limits));
+    OstStatus status = ost_adapt(run->c->load_cases[number].c, &limits, &adaption);
     const OstScene *scene = adaption ? ost_adaption_scene(adaption) : NULL;
     const OstResult *result = adaption ? ost_adaption_result(adaption) : NULL;
     status = conclude(run, status, scene, result, adaption, report);
     if (status == OST_SUCCESS && report->status == OST_SUCCESS && adaption->end != OST_ADAPT_MET) {
         char words[OST_LONGEST_ADAPT_WORDS];
         ost_adaption_words(adaption, words);
+        report->is_short = 1;
         status = note_failure(run, OST_RAISE(run->ctx, OST_NOT_CONVERGED, "%s", words), report);
     }
     ost_adaption_destroy(&adaption);
@@ -197,24 +213,30 @@ static OstStatus tell(Run *run)
 static OstStatus raise_failures(const Run *run)
 {
     char text[OST_ERROR_TEXT_SIZE] = "";
+    char of_none[160] = "", of_short[160] = "";
+    const int count = run->c->load_case_count;
     size_t used = 0;
-    int failures = 0;
-    for (int k = 0; k < run->c->load_case_count; k++) {
+    int none = 0, brief = 0;
+    for (int k = 0; k < count; k++) {
         const OstLoadCaseReport *report = &run->report[k];
         if (report->status == OST_SUCCESS)
             continue;
-        failures++;
+        *(report->is_short ? &brief : &none) += 1;
         if (used < sizeof text)
             used += (size_t)snprintf(text + used, sizeof text - used, "\n  %s: %.500s", report->name, report->failure);
     }
-    return OST_RAISE(run->ctx, run->failed, "%s: %d of %d load cases %s no answer%s:%s", run->c->path, failures,
-                     run->c->load_case_count, failures == 1 ? "has" : "have",
-                     run->how->keeps ? "" : ", and nothing of them was written", text);
+    if (none > 0)
+        snprintf(of_none, sizeof of_none, "%d of %d load cases %s no answer%s", none, count, none == 1 ? "has" : "have",
+                 run->how->keeps ? "" : ", and nothing of them was written");
+    if (brief > 0)
+        snprintf(of_short, sizeof of_short, "%s%d of %d load cases %s not as accurate as asked for, and %s written",
+                 none > 0 ? "; " : "", brief, count, brief == 1 ? "is" : "are", brief == 1 ? "was" : "were");
+    return OST_RAISE(run->ctx, run->failed, "%s: %s%s:%s", run->c->path, of_none, of_short, text);
 }
 
 OstStatus ost_solve_cases(const OstCase *c, const OstSolveCases *how)
 {
-    Run run = {.ctx = c->ctx, .c = c, .how = how};
+    Run run = {.ctx = c->ctx, .c = c, .how = how, .start = ost_seconds()};
     OstStatus status = ost_agree(c->ctx, OST_NEW(c->ctx, &run.report, c->load_case_count));
     for (int k = 0; k < c->load_case_count && status == OST_SUCCESS; k++) {
         run.report[k].c = c->load_cases[k].c;
