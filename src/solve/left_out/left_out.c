@@ -15,6 +15,10 @@
  * that knows no such error. */
 static const double enough = 0.25, least_residual = 1e-3;
 
+/* A body that moves by less than this share of its size does not, but for rounding; nor does stress change that much.
+ */
+static const double nothing = 1e-10;
+
 typedef struct Work {
     double *force, *load, *even; /* 3 × owned_nodes: of one direction; and what both have in common */
     double *residual, *taken;    /* 3 × rows, and the pressures, ghosts included */
@@ -175,14 +179,15 @@ static OstStatus spread(const OstProblem *problem, const double *taken, double *
  * moves too, but comes no further. */
 static OstStatus compare(const OstProblem *problem, const OstResult *result, const double *moved, double *change)
 {
-    double most[2] = {0.0};
+    double most[3] = {0.0}; /* the last: how far from the origin of the coordinates */
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
-        const double *u = result->displacement + 3 * (size_t)node;
+        const double *u = result->displacement + 3 * (size_t)node, *x = problem->mesh->coordinates + 3 * (size_t)node;
         most[0] = fmax(most[0], ost_dot3(u, u));
+        most[2] = fmax(most[2], ost_dot3(x, x));
         most[1] = fmax(most[1], fabs(ost_dot3(moved + 3 * (size_t)node, u)));
     }
-    OST_TRY(ost_max(problem->ctx, 2, most));
-    *change = most[0] > DBL_MIN ? most[1] / most[0] : 0.0;
+    OST_TRY(ost_max(problem->ctx, 3, most));
+    *change = most[0] > fmax(nothing * nothing * most[2], DBL_MIN) ? most[1] / most[0] : 0.0;
     return OST_SUCCESS;
 }
 
