@@ -125,9 +125,7 @@ static OstStatus check_path(const OstYaml *yaml, const OstYamlNode *path, const 
         return ost_yaml_raise(yaml, path,
                               "a case with a verify section is solved at t = 1 alone; leave out one of them");
     if (path && c->asks_error)
-        ost_warn(c->ctx,
-                 "%s:%d: a path is solved on the mesh as it is, and 'accuracy: {relative_error}' refines none; it says "
-                 "how far linear theory may be off, and no more",
+        ost_warn(c->ctx, "%s:%d: a path is solved on the mesh as it is, and 'accuracy: {relative_error}' refines none",
                  c->path, ost_yaml_line(path));
     if (path || c->table_count == 0)
         return OST_SUCCESS;

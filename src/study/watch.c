@@ -347,8 +347,9 @@ static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *r
     if (fabs(change) > fmax(newton->accuracy * fabs(watched->value), worth_words * watched->scale))
         ost_warn(
             result->ctx,
-            "'%s' is %.4g by linear theory, and about %.4g once the body has turned; large_rotation: on computes it",
-            watch->name, watched->value, watched->value + change);
+            "'%s' is %.4g by linear theory, and about %.4g%s once the body has turned; large_rotation: on computes "
+            "it",
+            watch->name, watched->value, watched->value + change, change * watched->value > 0.0 ? " or more" : "");
     return OST_SUCCESS;
 }
 

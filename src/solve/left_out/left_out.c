@@ -6,6 +6,7 @@
 #include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "mesh/nearest.h"
 
 #include <float.h>
 #include <math.h>
@@ -53,36 +54,75 @@ static OstStatus allocate(const OstProblem *problem, Work *work)
  * it. */
 static const double far = 0.5, along = 0.5, nearly_all = 0.9;
 
-static OstStatus measure_push(const OstProblem *problem, const OstResult *result, const double *load, int *yes)
+/* The loads' work: of nodes that are pushed so, of all, and of the three components of all. */
+typedef struct Push {
+    double pushed, all, component[3];
+    double most; /* the largest displacement */
+} Push;
+
+static OstStatus measure_push(const OstProblem *problem, const OstResult *result, const double *load, Push *push)
 {
+    double sum[5] = {0.0}, most = 0.0;
     const OstLocal owned = problem->mesh->owned_nodes;
-    double most = 0.0, work[2] = {0.0};
     for (OstLocal node = 0; node < owned; node++)
         most = fmax(most, ost_norm3(result->displacement + 3 * (size_t)node));
     OST_TRY(ost_max(problem->ctx, 1, &most));
     for (OstLocal node = 0; node < owned; node++) {
         const double *f = load + 3 * (size_t)node, *u = result->displacement + 3 * (size_t)node;
         const double of_node = ost_dot3(f, u), moved = ost_norm3(u);
-        work[0] += moved >= far * most && of_node >= along * ost_norm3(f) * moved ? of_node : 0.0;
-        work[1] += fabs(of_node);
+        sum[0] += moved >= far * most && of_node >= along * ost_norm3(f) * moved ? of_node : 0.0;
+        sum[1] += fabs(of_node);
+        for (int i = 0; i < 3; i++)
+            sum[2 + i] += f[i] * u[i];
     }
-    OST_TRY(ost_sum(problem->ctx, 2, work));
-    *yes = work[0] >= nearly_all * work[1];
+    OST_TRY(ost_sum(problem->ctx, 5, sum));
+    *push = (Push){sum[0], sum[1], {sum[2], sum[3], sum[4]}, most};
     return OST_SUCCESS;
 }
 
-static OstStatus is_pushed(const OstProblem *problem, const OstResult *result, int *yes)
+/* A watched displacement of this share of the largest one, in the direction of the loads' work, is of that motion. */
+static const double of_the_motion = 0.1;
+
+/* Is something watched that the energy of that motion says nothing of: a reaction, or another displacement? */
+static OstStatus watches_more(const OstProblem *problem, const OstResult *result, const Push *push, int *yes)
+{
+    *yes = 0;
+    for (int w = 0; problem->c && w < problem->c->watch_count && !*yes; w++) {
+        const OstWatch *watch = &problem->c->watches[w];
+        const int is_length = watch->component == OST_WATCH_LENGTH;
+        OstNearest vertex;
+        double moved = 0.0;
+        if (watch->kind != OST_WATCH_DISPLACEMENT || is_length) {
+            *yes = is_length || watch->kind == OST_WATCH_REACTION;
+            continue;
+        }
+        OST_TRY(ost_mesh_nearest(problem->mesh, watch->on.point, &vertex));
+        if (vertex.node >= 0)
+            moved = fabs(result->displacement[3 * vertex.node + watch->component]);
+        OST_TRY(ost_max(problem->ctx, 1, &moved));
+        *yes = moved < of_the_motion * push->most || push->component[watch->component] < nearly_all * push->all;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus energy_tells(const OstProblem *problem, const OstResult *result, int *yes)
 {
     double *load = NULL;
+    Push push;
+    int more = 0;
     *yes = 0;
     if (ost_effect_on(problem->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
         ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes)));
     ost_problem_load(problem, result->t, NULL, load);
-    const OstStatus status = measure_push(problem, result, load, yes);
+    const OstStatus status = measure_push(problem, result, load, &push);
     OST_FREE(load);
-    return status;
+    OST_TRY(status);
+    if (push.pushed >= nearly_all * push.all)
+        OST_TRY(watches_more(problem, result, &push, &more));
+    *yes = push.pushed >= nearly_all * push.all && !more;
+    return OST_SUCCESS;
 }
 
 static void reverse(OstResult *result)
@@ -230,10 +270,9 @@ OstStatus ost_left_out_find(const OstProblem *problem, OstSolver *solver, OstRes
 {
     const int is_watched = problem->c && problem->c->watch_count > 0;
     Work work = {0};
-    int pushed = 0;
-    if (!is_watched)
-        OST_TRY(is_pushed(problem, result, &pushed));
-    if (pushed)
+    int told = 0;
+    OST_TRY(energy_tells(problem, result, &told));
+    if (told)
         return OST_SUCCESS;
     OstStatus status = allocate(problem, &work);
     OST_THEN(find(problem, solver, is_watched, result, &work));
