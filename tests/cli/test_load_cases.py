@@ -194,11 +194,12 @@ if not SANITIZED:  # bodies that take a while
     check("of the loads (true, recomputed)" in whole and "hardly move anything" in whole and "tet by tet" in whole, whole)
 
     # --- progress moves while cases are solved together, and never goes back ---
-    folder = folder_with(early.replace("[60, 10, 10]", "[72, 12, 12]").replace("5]}]\n", "5]}]\n  - {name: again, combine: {weight: 2}}\n"))
+    folder = folder_with(early.replace("[60, 10, 10]", "[84, 14, 14]").replace("5]}]\n", "5]}]\n  - {name: again, combine: {weight: 2}}\n"))
     shown = subprocess.run([PROGRAM, "solve", "beam.yaml", "--set", "large_rotation=off"], cwd=folder, capture_output=True, text=True,
                            env={**os.environ, "ORTHOSTAT_ON_TERMINAL": "1"}, timeout=240).stderr
     shares = [int(share) for share in re.findall(r"load case \S+, \d of 5 (\d+) %", shown)]
-    check(shares == sorted(shares) and len(set(shares)) > 3 and 0 < shares[len(shares) // 2] < 95, shown)
+    within = set(re.findall(r"load case weight, 1 of 5 (\d+) %", shown))  # the line is redrawn every tenth of a second
+    check(shares == sorted(shares) and len(within) > 1 and 0 < shares[len(shares) // 2] < 95, shown)
 
 # --- by how much the loads of each case may grow until the material fails, and which case is the first ---
 strong = CASE.replace("density: 1}", "density: 1, strengths: {tension: 0.5}}").replace("[1000, 80, 50]", "1000")
