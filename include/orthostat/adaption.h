@@ -59,7 +59,7 @@ int ost_adaption_level_count(const OstAdaption *adaption);
 const OstAdaptLevel *ost_adaption_level(const OstAdaption *adaption, int number);
 
 /* Local. How it ended where the request is not met, and what meeting it would take, in words. */
-enum { OST_LONGEST_ADAPT_WORDS = 640 };
+enum { OST_LONGEST_ADAPT_WORDS = 800 };
 void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAPT_WORDS]);
 
 OST_API_END

@@ -271,13 +271,12 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
     return note_level(adaption, next, level_start);
 }
 
-/* So many times the unknowns that leave so much of the error tell of an energy without limit, as a force on a point
- * has.
- */
+/* An error that is still above this share of what it was with so many times fewer unknowns tells of an energy without
+ * limit, as that of a force on a point. */
 static const double many_times = 8.0, hardly_less = 0.85;
 
-/* What is left of the error of the last level before which has so few unknowns; 0 if there is none. Not of linear tets:
- * as long as they lock, errors stay near 100 %. */
+/* The error over that of the last level with so many times fewer unknowns; 0 if there is none. Quadratic tets alone:
+ * errors of linear ones stay near 100 % as long as they lock. */
 static double left_of_error(const OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
@@ -322,10 +321,11 @@ static int is_over(OstAdaption *adaption)
     return over;
 }
 
-/* Areas that change by more than the error that is asked for, or 1 %, which curved surfaces may, are told. */
+/* A warning tells of selected areas that change by more than the request and by more than this, as curved surfaces may.
+ */
 static const double least_change = 0.01;
 
-/* The level that was solved takes the place of the one before; that is kept while it has the smaller error. */
+/* Makes the next level the last one; the one before is kept while no later one has a smaller error. */
 static OstStatus take_level(OstAdaption *adaption, OstStage **next)
 {
     OstStage *before = adaption->stage;

@@ -20,7 +20,7 @@ struct OstAdaption {
     char failure[OST_ERROR_TEXT_SIZE];                    /* FAILED: why */
     double rate;                                          /* the error falls as unknowns^-rate, by the last levels */
     double needed_unknowns, needed_seconds, needed_bytes; /* to meet the request, by that rate; 0 if met or not known */
-    double left;                 /* OUT_OF_REACH: of the error, with 8 times the unknowns; 0: as the
+    double left;                 /* OUT_OF_REACH: the error over that with 8 times fewer unknowns; 0: the
                                     memory would not do */
     double reach, reach_seconds; /* the error that the memory allows, by that rate */
     OstFirstMesh first;

@@ -36,12 +36,12 @@ static void describe_end(const OstAdaption *adaption, char *text, size_t size)
         break;
     case OST_ADAPT_OUT_OF_REACH:
         if (adaption->left > 0.0) {
-            snprintf(
-                text, size,
-                "with 8 times the unknowns %.0f %% of the error are left, as where a force acts on a point and the "
-                "energy has no limit: spread it over faces (total_force, traction), ask for the error of what is "
-                "watched elsewhere (of: NAME), or set --max-time to refine as far as it goes",
-                100.0 * adaption->left);
+            snprintf(text, size,
+                     "with 8 times the unknowns the error is %.2g times what it was, as where a force acts on a point "
+                     "and the "
+                     "energy has no limit: spread it over faces (total_force, traction), ask for the error of what is "
+                     "watched elsewhere (of: NAME), or set --max-time to refine as far as it goes",
+                     adaption->left);
             break;
         }
         snprintf(text, size,

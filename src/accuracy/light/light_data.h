@@ -16,7 +16,6 @@ typedef float Eight __attribute__((vector_size(WIDTH * sizeof(float))));
 typedef float Kept __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16))); /* in memory */
 typedef float Part __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(float))));     /* of a batch */
 typedef float Four __attribute__((vector_size(4 * sizeof(float)), may_alias));
-typedef float Row __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16), may_alias)); /* of a block */
 typedef double Wide __attribute__((vector_size(4 * sizeof(double)), aligned(16), may_alias));
 
 /* Eight tets; those that only fill the last ones up have no volume. */
@@ -80,16 +79,6 @@ static inline void transpose_back(const Eight in[3], Four row[WIDTH])
         row[k] = __builtin_shufflevector(m[k], m[k], 0, 1, 2, 3);
         row[4 + k] = __builtin_shufflevector(m[k], m[k], 4, 5, 6, 7);
     }
-}
-
-/* The other way, of six numbers: each row has a zero after the third and the sixth. */
-static inline void transpose_six_back(const Eight in[6], Eight row[WIDTH])
-{
-    Four low[WIDTH], high[WIDTH];
-    transpose_back(in, low);
-    transpose_back(in + 3, high);
-    for (int k = 0; k < WIDTH; k++)
-        row[k] = __builtin_shufflevector(low[k], high[k], 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /* Function k of a tet: an edge's, or a face's. */

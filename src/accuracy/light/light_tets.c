@@ -493,13 +493,14 @@ static inline void find_block(const Linear *tet, const Squares *squares, const E
 }
 
 /* Adds a block to that of function k. */
-static inline void add_to_block(const OstLightTets *tets, const Eights *eights, int k, const Eight block[6],
-                                float *blocks)
+static inline void add_to_block(const OstLightTets *tets, const Eights *eights, int k, Eight block[6], float *blocks)
 {
-    Eight row[WIDTH];
-    transpose_six_back(block, row);
-    for (int slot = 0; slot < WIDTH; slot++)
-        *(Row *)(blocks + OST_PER_BLOCK * (size_t)function_of(tets, eights, slot, k)) += row[slot];
+    for (int half = 0; half < 2; half++) {
+        Four row[WIDTH];
+        transpose_back(block + 3 * half, row);
+        for (int slot = 0; slot < WIDTH; slot++)
+            *(Four *)(blocks + OST_PER_BLOCK * (size_t)function_of(tets, eights, slot, k) + 4 * half) += row[slot];
+    }
 }
 
 /* The block of a function of an edge is volume × `own` times the sum of those of L_a and L_b and `both` times that of
