@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "adapt/stage.h"
 
+#include "adapt/mark_ties.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -194,22 +195,30 @@ static OstStatus carry_shares(const OstStage *stage, OstStage *next)
     return status;
 }
 
-/* Cuts the tets that have the error. */
-static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisection, OstMeshChunk **chunk)
+/* Which tets have the error. */
+static OstStatus mark(OstStage *stage, OstMarking *marking, unsigned char *times)
 {
     const OstMesh *mesh = stage->scene->mesh;
-    const OstShapeSurface surface = ost_scene_surface(&stage->c);
-    unsigned char *times = NULL;
     double *share = NULL;
-    OstStatus status = OST_NEW(stage->ctx, &times, mesh->owned_tets);
-    OST_THEN(OST_NEW(stage->ctx, &share, mesh->owned_tets));
-    OST_TRY_DONE(ost_agree(stage->ctx, status));
+    OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &share, mesh->owned_tets)));
     for (OstLocal t = 0; t < mesh->owned_tets; t++)
         share[t] = share_of(stage, t);
-    OST_TRY_DONE(ost_mark(mesh, share, stage->fall, marking, times));
-    OST_TRY_DONE(ost_bisection_split(bisection, times, &surface, chunk));
-done:
-    OST_FREE(times, share);
+    OstStatus status = ost_mark(mesh, share, stage->fall, marking, times);
+    OST_THEN(ost_mark_ties(mesh, stage->problem->supports->links, times));
+    OST_FREE(share);
+    return status;
+}
+
+/* Cuts them, with the memory that the analysis had. */
+static OstStatus cut(OstStage *stage, OstMarking *marking, OstBisection *bisection, OstMeshChunk **chunk)
+{
+    const OstShapeSurface surface = ost_scene_surface(&stage->c);
+    unsigned char *times = NULL;
+    OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &times, stage->scene->mesh->owned_tets)));
+    OstStatus status = mark(stage, marking, times);
+    release_analysis(stage);
+    OST_THEN(ost_bisection_split(bisection, times, &surface, chunk));
+    OST_FREE(times);
     return status;
 }
 
@@ -224,7 +233,6 @@ OstStatus ost_stage_refine(OstStage *stage, OstMarking *marking, OstStage *next)
 {
     OstContext *ctx = stage->ctx;
     OstMeshChunk *chunk = NULL;
-    release_analysis(stage);
     next->c = stage->c;
     next->c.order = marking->order;
     next->c.refinement = 0;

@@ -400,6 +400,7 @@ OstStatus ost_scene_links(const OstScene *scene, int table, OstSupports *support
     supports->links->path = c->path;
     for (int i = 0; i < c->constraint_count; i++) {
         supports->links->line = c->constraints[i].line;
+        supports->links->between_meshes = c->constraints[i].kind == OST_CONSTRAIN_TIED;
         if (ost_constraint_links(&c->constraints[i]))
             OST_TRY(add(scene, &c->constraints[i], table, supports->links));
     }

@@ -63,7 +63,7 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
                          label);
     OST_TRY(make_room(links, links->count + 1));
     OstLink *link = &links->link[links->count];
-    *link = (OstLink){.node = node, .count = count, .line = links->line};
+    *link = (OstLink){.node = node, .count = count, .line = links->line, .between_meshes = links->between_meshes};
     memcpy(link->leader, leader, (size_t)count * sizeof *leader);
     memcpy(link->place, place, sizeof link->place);
     memcpy(links->offset + 3 * (size_t)node, offset, 3 * sizeof *offset);
@@ -111,13 +111,13 @@ static OstStatus order_links(OstLinks *links, OstLocal *order)
 static OstStatus share_links(OstLinks *links, OstHalo *halo)
 {
     OstLeader *leader = NULL;
-    int *count = NULL;
+    int *of = NULL; /* how many leaders a link has, and whether it is between meshes */
     OstStatus status = OST_NEW(links->ctx, &leader, links->all);
-    OST_THEN(OST_NEW(links->ctx, &count, links->all));
+    OST_THEN(OST_NEW(links->ctx, &of, 2 * (size_t)links->all));
     OST_TRY_DONE(ost_agree(links->ctx, status));
     for (OstLocal i = 0; i < links->count; i++)
-        count[i] = links->link[i].count;
-    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, sizeof *count, count)));
+        memcpy(of + 2 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes}, 2 * sizeof *of);
+    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, 2 * sizeof *of, of)));
     for (int k = 0; k < OST_MOST_LEADERS; k++) {
         for (OstLocal i = 0; i < links->count; i++)
             leader[i] = links->link[i].leader[k];
@@ -125,11 +125,12 @@ static OstStatus share_links(OstLinks *links, OstHalo *halo)
         for (OstLocal i = links->count; i < links->all; i++)
             links->link[i].leader[k] = leader[i];
     }
-    for (OstLocal i = links->count; i < links->all; i++)
-        links->link[i].count = count[i];
+    for (OstLocal i = links->count; i < links->all; i++) {
+        links->link[i].count = of[2 * (size_t)i];
+        links->link[i].between_meshes = of[2 * (size_t)i + 1];
+    }
 done:
-    OST_FREE(leader);
-    OST_FREE(count);
+    OST_FREE(leader, of);
     return status;
 }
 

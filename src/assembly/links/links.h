@@ -24,6 +24,7 @@ typedef struct OstLink {
     OstLocal slot[OST_MOST_LEADERS]; /* where the leader is in the halo's arrays */
     double place[3];                 /* where the leaders' mean is; the node itself, of a rigid face */
     int line;                        /* of the case, which states it */
+    int between_meshes;              /* a tie: the sides' meshes differ */
 } OstLink;
 
 /* A rigid face: its point, and its motion there, prescribed or free. */
@@ -41,6 +42,7 @@ typedef struct OstLinks {
     OstLink *link;
     const char *path;     /* of the case, or NULL */
     int line;             /* where it states the links that are added */
+    int between_meshes;   /* are these of a tie? */
     OstLocal *of_node;    /* node_count: the link of a node, or -1 */
     unsigned char *leads; /* node_count: does another follow this one? */
     unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */

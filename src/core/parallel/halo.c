@@ -6,6 +6,7 @@
 #include "core/parallel/numbering.h"
 
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 
 enum { HALO_TAG = 7171 };
@@ -229,7 +230,15 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values)
     return OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE));
 }
 
-OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
+/* Of an owner's value and a ghost's. */
+typedef double Combine(double owners, double ghosts);
+
+static double add(double owners, double ghosts)
+{
+    return owners + ghosts;
+}
+
+static OstStatus combine(OstHalo *halo, int width, double *values, Combine *with)
 {
     const int n = halo->neighbour_count;
     if (n == 0)
@@ -244,8 +253,19 @@ OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
     ost_ledger_sent(halo->ctx, ost_halo_messages(halo, halo->receive_start), (double)size * halo->ghosts);
     OST_TRY(OST_MPI(halo->ctx, MPI_Waitall(requests, halo->request, MPI_STATUSES_IGNORE)));
     for (OstLocal i = 0; i < halo->send_start[n]; i++)
-        for (int c = 0; c < width; c++)
-            values[(size_t)halo->send_index[i] * (size_t)width + (size_t)c] +=
-                incoming[(size_t)i * (size_t)width + (size_t)c];
+        for (int c = 0; c < width; c++) {
+            double *value = &values[(size_t)halo->send_index[i] * (size_t)width + (size_t)c];
+            *value = with(*value, incoming[(size_t)i * (size_t)width + (size_t)c]);
+        }
     return OST_SUCCESS;
+}
+
+OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values)
+{
+    return combine(halo, width, values, add);
+}
+
+OstStatus ost_halo_max_at_owners(OstHalo *halo, int width, double *values)
+{
+    return combine(halo, width, values, fmax);
 }

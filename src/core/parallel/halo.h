@@ -44,4 +44,7 @@ OstStatus ost_halo_import(OstHalo *halo, size_t size, void *values);
  * values stay. */
 OstStatus ost_halo_add_to_owners(OstHalo *halo, int width, double *values);
 
+/* Collective over neighbours. Likewise the largest of an owner's value and its ghosts'. */
+OstStatus ost_halo_max_at_owners(OstHalo *halo, int width, double *values);
+
 #endif
