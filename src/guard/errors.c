@@ -142,6 +142,70 @@ static OstStatus of_pressure(const OstProblem *problem, size_t n, const double *
     return OST_SUCCESS;
 }
 
+/* Stresses of all own tets: of the answer, then of it with its error added. */
+typedef struct Turned {
+    double *stress; /* 6 × owned_tets */
+    int with_error;
+    double sums[SUMS];
+} Turned;
+
+static void compare_stresses(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                             const OstMeans *means)
+{
+    Turned *turned = data;
+    (void)element;
+    (void)u;
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int p = 0; p < 6; p++) {
+            double *kept = &turned->stress[6 * (size_t)batch->tet[slot] + (size_t)p];
+            const double stress = means->stress[p][slot], more = stress - *kept;
+            if (turned->with_error) {
+                turned->sums[STRESS_ERROR] += more * more;
+                continue;
+            }
+            *kept = stress;
+            turned->sums[STRESS] += stress * stress;
+        }
+}
+
+OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const double *displacement,
+                                  const double *internal, const double *load, const double *error, OstErrors *errors)
+{
+    const OstMesh *mesh = problem->mesh;
+    const size_t n = 3 * (size_t)mesh->owned_nodes, all = 3 * (size_t)mesh->node_count;
+    const double share = ost_problem_eigen_share(problem, t);
+    double *moved = NULL, *wrong = NULL;
+    Turned turned = {.stress = NULL};
+    OstStatus status = OST_NEW(problem->ctx, &moved, all);
+    OST_THEN(OST_NEW(problem->ctx, &wrong, n));
+    OST_THEN(OST_NEW(problem->ctx, &turned.stress, 6 * (size_t)mesh->owned_tets));
+    for (size_t i = 0; i < all && status == OST_SUCCESS; i++)
+        moved[i] = displacement[i] + error[i];
+    OST_THEN(ost_problem_force(problem, t, moved, wrong));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    ost_visit_means_of(mesh, problem->field, problem->formulation, share, displacement, compare_stresses, &turned);
+    turned.with_error = 1;
+    ost_visit_means_of(mesh, problem->field, problem->formulation, share, moved, compare_stresses, &turned);
+    double *sums = turned.sums;
+    for (size_t i = 0; i < n; i++) {
+        wrong[i] -= internal[i];
+        sums[DISPLACEMENT] += displacement[i] * displacement[i];
+        sums[DISPLACEMENT_ERROR] += error[i] * error[i];
+    }
+    for (size_t k = 0; k < n; k += 3)
+        add_node(problem, (OstLocal)(k / 3), internal + k, wrong + k, displacement + k, error + k, load + k, load + k,
+                 sums);
+    OST_TRY_DONE(ost_sum(problem->ctx, SUMS, sums));
+    const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
+    *errors = (OstErrors){.known = 1,
+                          .displacement = relative(sums[DISPLACEMENT_ERROR], sums[DISPLACEMENT]),
+                          .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
+                          .stress = relative(sums[STRESS_ERROR], sums[STRESS])};
+done:
+    OST_FREE(moved, wrong, turned.stress);
+    return status;
+}
+
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
                            const double *internal, const double *error, OstErrors *errors)
 {

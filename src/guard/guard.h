@@ -57,6 +57,11 @@ typedef struct OstErrors {
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
                            const double *internal, const double *error, OstErrors *errors);
 
+/* Collective. The same where rotations are large, at pseudo-time t: `internal` and `load` are the forces at the
+ * displacement, 3 × owned_nodes. Not of a mixed form. */
+OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const double *displacement,
+                                  const double *internal, const double *load, const double *error, OstErrors *errors);
+
 /* The sizes that errors of an answer are relative to, and its errors where the solver could find them. */
 typedef struct OstSolvedFor {
     double norm; /* of the right-hand side */

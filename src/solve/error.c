@@ -44,11 +44,12 @@ typedef struct Search {
     const OstProblem *problem;
     OstSolver *solver;
     const OstSolved *solved;
-    double *residual; /* of the rows */
-    double *of_rows;  /* the error, of the rows */
-    double *internal; /* forces */
-    double *error;    /* of all local nodes */
-    double caution;   /* what is stated over what is measured; 1 until corrections show more */
+    double *residual;        /* of the rows */
+    double *of_rows;         /* the error, of the rows */
+    double *internal;        /* forces */
+    double *error;           /* of all local nodes */
+    double caution;          /* what is stated over what is measured; 1 until corrections show more */
+    const OstTurned *turned; /* the state where rotations are large; else NULL */
 } Search;
 
 /* P (f - K u) */
@@ -88,7 +89,11 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
-    OST_TRY(ost_guard_errors(problem, problem, search->solved->displacement, search->internal, search->error, errors));
+    const OstTurned *turned = search->turned;
+    OST_TRY(turned ? ost_guard_turned_errors(problem, turned->t, turned->displacement, turned->internal, turned->load,
+                                             search->error, errors)
+                   : ost_guard_errors(problem, problem, search->solved->displacement, search->internal, search->error,
+                                      errors));
     state(search, errors);
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,
@@ -252,7 +257,7 @@ static OstStatus look_closer(const Search *search, OstErrors *errors)
     for (double missing = 1e-2; missing > 1e-9 && largest(errors) > small_error; missing *= 1e-2) {
         const int grows =
             errors->displacement > 2.0 * before.displacement || of_forces(errors) > 2.0 * of_forces(&before);
-        if (!grows && !seem_lost(errors))
+        if (!grows && (search->turned || !seem_lost(errors)))
             break;
         before = *errors;
         OST_TRY(measure(search, missing, errors));
@@ -329,6 +334,28 @@ done:
         search.internal = NULL;
     }
     OST_FREE(search.internal);
+    OST_FREE(search.residual);
+    OST_FREE(search.error);
+    return status;
+}
+
+OstStatus ost_find_turned_errors(const OstProblem *problem, OstSolver *solver, const OstTurned *turned,
+                                 OstErrors *errors)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t rows = 3 * (size_t)problem->system->matrix->rows;
+    Search search = {.problem = problem, .solver = solver, .caution = 1.0, .turned = turned};
+    *errors = (OstErrors){0};
+    OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);
+    OST_THEN(OST_NEW(ctx, &search.error, 3 * (size_t)problem->mesh->node_count));
+    OST_TRY_DONE(ost_agree(ctx, status));
+    search.of_rows = search.residual + rows;
+    memcpy(search.residual, turned->residual, rows * sizeof *search.residual);
+    OST_TRY_DONE(measure(&search, 0.1, errors));
+    OST_TRY_DONE(look_closer(&search, errors));
+    errors->reaction *= forces_caution;
+    errors->stress *= forces_caution;
+done:
     OST_FREE(search.residual);
     OST_FREE(search.error);
     return status;

@@ -30,6 +30,17 @@ typedef struct OstSolved {
 OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, double enough,
                           OstErrors *errors);
 
+/* Collective. The same of a state of Newton's method where rotations are large, by the stiffness of the last
+ * correction, and without any correction. Not of a mixed form. */
+typedef struct OstTurned {
+    double t;
+    const double *displacement;    /* 3 × node_count, ghosts included */
+    const double *internal, *load; /* 3 × owned_nodes: forces there */
+    const double *residual;        /* 3 × rows */
+} OstTurned;
+OstStatus ost_find_turned_errors(const OstProblem *problem, OstSolver *solver, const OstTurned *turned,
+                                 OstErrors *errors);
+
 /* Collective. The same of a mixed form, of both equations; the problem is at the answer's pressure. */
 OstStatus ost_find_mixed_errors(const OstProblem *problem, OstSolver *solver, const OstSolved *solved, double enough,
                                 OstErrors *errors);

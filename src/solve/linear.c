@@ -223,14 +223,11 @@ static const double of_watched = 0.1, small_stress = 1e-3;
 /* So much of the largest error of a displacement is looked at once, though it be part of a watched one. */
 static const double small_displacement = 0.1;
 
-/* The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has the
- * energy, of reactions, of rounding. By how much an error exceeds what is good enough; INFINITY: nobody knows. */
-static double excess(const OstErrors *errors, const OstResult *result)
+double ost_stop_excess(const OstErrors *errors, const OstAnswerError *answer, int watches_stress)
 {
-    const OstAnswerError *answer = &result->answer;
     const double of_displacement = errors->displacement / fmax(answer->displacement, 0.1 * answer->relative);
     double of_forces = fmax(errors->reaction, errors->stress) / ost_least_digit;
-    if (result->stress_surplus || result->node_stress_surplus)
+    if (watches_stress)
         of_forces = fmax(of_forces, errors->stress / fmax(of_watched * answer->relative, small_stress));
     return errors->known ? fmax(of_displacement, of_forces) : INFINITY;
 }
@@ -248,7 +245,8 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
             return OST_SUCCESS;
         OST_TRY(find_errors(analysis, result, fmax(small_displacement * result->answer.displacement, DBL_MIN), error,
                             errors));
-        const double beyond = excess(errors, result);
+        const double beyond =
+            ost_stop_excess(errors, &result->answer, result->stress_surplus || result->node_stress_surplus);
         if (beyond <= 1.0) {
             if (error)
                 ost_estimate_add(stop->estimate, error, &stop->surplus);

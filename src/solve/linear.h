@@ -27,4 +27,9 @@ OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *
 /* Collective. The work of the right-hand side at t on the unknowns of a displacement. */
 OstStatus ost_linear_work(const OstAnalysis *analysis, double t, const double *displacement, double *work);
 
+/* Local. The stop goes by the norm of the energy. Another norm may see more: of a soft part beside a stiff one that has
+ * the energy, of reactions, of rounding. By how much the equations' errors exceed what is good enough beside the
+ * answer's; INFINITY: nobody knows. */
+double ost_stop_excess(const OstErrors *errors, const OstAnswerError *answer, int watches_stress);
+
 #endif

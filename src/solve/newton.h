@@ -33,10 +33,11 @@ double ost_newton_first_step(double rotation);
 OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport *solve, OstNewton **newton);
 void ost_newton_destroy(OstNewton **newton);
 
-/* Local. Ends the search for each state at rest where a correction is no more than this share of the displacement, both
- * in the norm of the energy: the next one, all that is missing, is then far smaller. 0, as from the start: the residual
- * alone ends it. */
-void ost_newton_stop_at(OstNewton *newton, double share);
+/* Local. Ends the search for each state at rest where a correction is no more than this fraction of the answer's error,
+ * as linear theory has it, in the norm of the energy: the next one, all that is missing, is then far smaller. At the
+ * end of an advance, errors of displacements, reactions and stresses are to be small as well (ost_stop_excess), or the
+ * search goes on. Without it the residual alone ends a search. */
+void ost_newton_stop_at(OstNewton *newton, double fraction, const OstAnswerError *answer, int watches_stress);
 
 /* Collective. Takes a state on to load factor `to` > state->t, in as many load steps as it needs. What is done depends
  * on the state alone and not on what was done before: away from u = 0 every call begins with a new hierarchy. Returns

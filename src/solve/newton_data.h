@@ -50,6 +50,9 @@ struct OstNewton {
     double decrement; /* its norm in the energy; INFINITY if by the definite stiffness, or taken in part */
     double enough; /* share of the state's size in the norm of the energy; a correction below it is the last. 0: off */
     int stopped;   /* that has ended the last search */
+    OstAnswerError answer; /* by linear theory, where `enough` is not 0 */
+    int watches_stress;
+    OstErrors errors; /* of the state that the last advance ended with */
 
     /* The solver's hierarchy: */
     int rebuild;         /* is a new one needed? */
@@ -100,6 +103,9 @@ OstStatus ost_newton_search(OstNewton *newton, double *length);
 /* Collective. Looks whether the state at rest is stable: is the exact stiffness definite? If not, the body is pushed
  * along its softest motion, and a stable state is looked for from there. */
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest);
+
+/* Collective, at rest at the end of an advance: finds newton->errors. */
+OstStatus ost_newton_find_errors(OstNewton *newton);
 
 /* Of a mixed form (newton_mixed.c). */
 

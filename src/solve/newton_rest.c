@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "solve/error.h"
 #include "solve/newton_data.h"
 
 #include <float.h>
@@ -227,4 +228,15 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
         if (hidden || length == 0.0)
             return OST_SUCCESS;
     }
+}
+
+/* Forces with a skew part, and the equations of a mixed form, are not looked at. */
+OstStatus ost_newton_find_errors(OstNewton *newton)
+{
+    newton->errors = (OstErrors){0};
+    if (ost_newton_is_mixed(newton) || ost_newton_is_unsymmetric(newton))
+        return OST_SUCCESS;
+    OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    const OstTurned state = {newton->t, newton->displacement, newton->internal, newton->load, newton->residual};
+    return ost_find_turned_errors(newton->problem, newton->stiffness->solver, &state, &newton->errors);
 }

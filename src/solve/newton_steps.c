@@ -4,6 +4,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "guard/linearity.h"
+#include "solve/linear.h"
 #include "solve/newton_data.h"
 
 #include <math.h>
@@ -131,9 +132,11 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE(*newton);
 }
 
-void ost_newton_stop_at(OstNewton *newton, double share)
+void ost_newton_stop_at(OstNewton *newton, double fraction, const OstAnswerError *answer, int watches_stress)
 {
-    newton->enough = share;
+    newton->enough = fraction * answer->relative;
+    newton->answer = *answer;
+    newton->watches_stress = watches_stress;
 }
 
 /* Puts what is prescribed at the load factor into a displacement, ghosts included. */
@@ -282,6 +285,26 @@ static OstStatus renew_hierarchy(OstNewton *newton, const OstNewtonState *state)
     return ost_problem_stiffness_from(newton->problem, state->t, state->displacement, NULL, 0);
 }
 
+/* The end of an advance: a stable state. Where the search for it has stopped too early, it goes on. */
+static OstStatus come_to_rest(OstNewton *newton, OstRest *rest)
+{
+    enum { ROUNDS = 3 };
+    for (int round = 1;; round++) {
+        OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, rest));
+        if (!is_at_rest(newton, *rest))
+            return OST_SUCCESS;
+        OST_TRY(ost_newton_find_errors(newton));
+        const double beyond =
+            newton->stopped ? ost_stop_excess(&newton->errors, &newton->answer, newton->watches_stress) : 0.0;
+        if (beyond <= 1.0)
+            return OST_SUCCESS;
+        newton->enough = round < ROUNDS ? 0.5 / beyond * newton->enough : 0.0;
+        OST_TRY(ost_newton_find_rest(newton, SETTLING_ITERATIONS, rest));
+        if (!is_at_rest(newton, *rest))
+            return OST_SUCCESS;
+    }
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
@@ -302,7 +325,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         if (found && !ost_newton_is_mixed(newton)) /* whose stiffness is indefinite before the body is unstable */
             OST_TRY(find_jump(newton, state, step, &jumps));
         if (found && t == to)
-            OST_TRY(ost_newton_settle(newton, SETTLING_ITERATIONS, &rest));
+            OST_TRY(come_to_rest(newton, &rest));
         if (found && !is_at_rest(newton, rest))
             return ost_newton_give_up(newton, state, t, rest);
         ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
@@ -336,8 +359,8 @@ OstStatus ost_newton_advance(OstNewton *newton, double to, OstNewtonState *state
     return status;
 }
 
-/* The error of the displacement is about that of the next correction: the square of the last, or what its linear solve
- * left of it. */
+/* Where nothing better is known, the error of the displacement is about that of the next correction: the square of the
+ * last, or what its linear solve left of it. */
 OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstResult *result, OstSolvedFor *solved_for)
 {
     OST_TRY(load_to(newton, state, state->t));
@@ -368,6 +391,6 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
     result->solve.energy_error = result->solve.error_estimate;
     result->solve.rounding_error = result->solve.rounding_spread = 0.0;
     result->reached = 1;
-    *solved_for = (OstSolvedFor){.norm = newton->size};
+    *solved_for = (OstSolvedFor){.norm = newton->size, .errors = newton->errors};
     return OST_SUCCESS;
 }

@@ -135,7 +135,8 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
     if (status == OST_SUCCESS && result->answer.known && ost_reactions_allow_stop(problem))
-        ost_newton_stop_at(newton, analysis->options.algebraic_fraction * result->answer.relative);
+        ost_newton_stop_at(newton, analysis->options.algebraic_fraction, &result->answer,
+                           result->stress_surplus || result->node_stress_surplus);
     result->answer = (OstAnswerError){0}; /* that of the linear answer */
     if (status == OST_SUCCESS) {
         status = ost_nonlinear_advance(newton, result->newton.linear_strain, 1.0, &state);
