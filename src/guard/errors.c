@@ -87,20 +87,26 @@ static double relative(double square_of_error, double square)
     return square_of_error > 0.0 ? sqrt(square_of_error) / sqrt(square) : 0.0;
 }
 
-/* Stresses of the answer, of its error, and of the eigenstrain alone. */
-static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                                  const double *error, double *sums)
+/* Sums of what the eigenstrain alone would make, if nothing gave way. */
+static OstStatus add_eigen(const OstProblem *problem, double share, double *sums)
 {
-    const double share = ost_problem_eigen_share(problem, 1.0);
     double *zero = NULL;
-    ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
-    ost_visit_means(problem->mesh, of_error->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
     if (!ost_field_is_eigenstrained(problem->field))
         return OST_SUCCESS;
     OST_TRY(OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count));
     ost_visit_means(problem->mesh, problem->field, share, zero, add_eigenstrains, sums);
     OST_FREE(zero);
     return OST_SUCCESS;
+}
+
+/* Stresses of the answer, of its error, and of the eigenstrain alone. */
+static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
+                                  const double *error, double *sums)
+{
+    const double share = ost_problem_eigen_share(problem, 1.0);
+    ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
+    ost_visit_means(problem->mesh, of_error->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
+    return add_eigen(problem, share, sums);
 }
 
 /* Collective. About the squared displacement of all nodes under this sum of squared eigenstrains of the tets. */
@@ -142,6 +148,18 @@ static OstStatus of_pressure(const OstProblem *problem, size_t n, const double *
     return OST_SUCCESS;
 }
 
+/* `swollen`: the squared displacement that the eigenstrain would make of a body that nothing holds. */
+static void take_relative(const OstProblem *problem, const double *sums, double swollen, OstErrors *errors)
+{
+    const double least = least_of_eigenstrain * least_of_eigenstrain;
+    const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
+    const double moved = fmax(sums[DISPLACEMENT], least * swollen);
+    *errors = (OstErrors){.known = 1,
+                          .displacement = relative(sums[DISPLACEMENT_ERROR], moved),
+                          .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
+                          .stress = relative(sums[STRESS_ERROR], fmax(sums[STRESS], least * sums[EIGENSTRESS]))};
+}
+
 /* Stresses of all own tets: of the answer, then of it with its error added. */
 typedef struct Turned {
     double *stress; /* 6 × owned_tets */
@@ -176,17 +194,18 @@ OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const dou
     const double share = ost_problem_eigen_share(problem, t);
     double *moved = NULL, *wrong = NULL;
     Turned turned = {.stress = NULL};
+    double *sums = turned.sums, swollen = 0.0;
     OstStatus status = OST_NEW(problem->ctx, &moved, all);
     OST_THEN(OST_NEW(problem->ctx, &wrong, n));
     OST_THEN(OST_NEW(problem->ctx, &turned.stress, 6 * (size_t)mesh->owned_tets));
     for (size_t i = 0; i < all && status == OST_SUCCESS; i++)
         moved[i] = displacement[i] + error[i];
     OST_THEN(ost_problem_force(problem, t, moved, wrong));
+    OST_THEN(add_eigen(problem, share, sums));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     ost_visit_means_of(mesh, problem->field, problem->formulation, share, displacement, compare_stresses, &turned);
     turned.with_error = 1;
     ost_visit_means_of(mesh, problem->field, problem->formulation, share, moved, compare_stresses, &turned);
-    double *sums = turned.sums;
     for (size_t i = 0; i < n; i++) {
         wrong[i] -= internal[i];
         sums[DISPLACEMENT] += displacement[i] * displacement[i];
@@ -196,11 +215,8 @@ OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const dou
         add_node(problem, (OstLocal)(k / 3), internal + k, wrong + k, displacement + k, error + k, load + k, load + k,
                  sums);
     OST_TRY_DONE(ost_sum(problem->ctx, SUMS, sums));
-    const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
-    *errors = (OstErrors){.known = 1,
-                          .displacement = relative(sums[DISPLACEMENT_ERROR], sums[DISPLACEMENT]),
-                          .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
-                          .stress = relative(sums[STRESS_ERROR], sums[STRESS])};
+    OST_TRY_DONE(free_displacement(mesh, sums[EIGENSTRAIN], &swollen));
+    take_relative(problem, sums, swollen, errors);
 done:
     OST_FREE(moved, wrong, turned.stress);
     return status;
@@ -235,15 +251,9 @@ OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error
                  straining + k, sums);
     OST_TRY_DONE(ost_sum(ctx, SUMS, sums));
     OST_TRY_DONE(free_displacement(problem->mesh, sums[EIGENSTRAIN], &swollen));
-    const double least = least_of_eigenstrain * least_of_eigenstrain;
     OST_TRY_DONE(of_pressure(problem, n, internal, &pressed));
-    const double moved = fmax(fmax(sums[DISPLACEMENT], least * swollen), pressed);
-    const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
-    const double stress = fmax(sums[STRESS], least * sums[EIGENSTRESS]);
-    *errors = (OstErrors){.known = 1,
-                          .displacement = relative(sums[DISPLACEMENT_ERROR], moved),
-                          .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
-                          .stress = relative(sums[STRESS_ERROR], stress)};
+    sums[DISPLACEMENT] = fmax(sums[DISPLACEMENT], pressed);
+    take_relative(problem, sums, swollen, errors);
 done:
     OST_FREE(wrong);
     OST_FREE(load);

@@ -86,7 +86,7 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     OST_TRY(ost_solver_error(search->solver, missing, search->residual, search->of_rows, &found));
     if (!found)
         return OST_SUCCESS;
-    OST_TRY(ost_problem_displacement(problem, 0.0, search->of_rows, search->error));
+    OST_TRY(ost_system_displacement(problem->system, 0.0, search->of_rows, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
     const OstTurned *turned = search->turned;

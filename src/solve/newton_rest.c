@@ -230,13 +230,16 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     }
 }
 
-/* Forces with a skew part, and the equations of a mixed form, are not looked at. */
+/* Forces with a skew part, and the equations of a mixed form, are not looked at; nor is what is left of a body that
+ * nothing moves. */
 OstStatus ost_newton_find_errors(OstNewton *newton)
 {
     newton->errors = (OstErrors){0};
     if (ost_newton_is_mixed(newton) || ost_newton_is_unsymmetric(newton))
         return OST_SUCCESS;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    if (newton->norm <= drowned_residual * newton->size)
+        return OST_SUCCESS;
     const OstTurned state = {newton->t, newton->displacement, newton->internal, newton->load, newton->residual};
     return ost_find_turned_errors(newton->problem, newton->stiffness->solver, &state, &newton->errors);
 }

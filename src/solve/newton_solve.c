@@ -2,7 +2,6 @@
 #include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/halo.h"
 #include "core/small.h"
 #include "solve/newton_data.h"
 
@@ -89,24 +88,13 @@ static void judge_hierarchy(OstNewton *newton)
 OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction)
 {
     const OstProblem *problem = newton->problem;
-    const OstMesh *mesh = problem->mesh;
-    for (OstLocal node = 0; node < mesh->owned_nodes; node++) {
-        const OstLocal row = problem->system->row_of_node[node];
-        double *of_node = direction + 3 * (size_t)node;
-        double projector[9];
-        memset(of_node, 0, 3 * sizeof *of_node);
-        if (row < 0)
-            continue;
-        ost_supports_get(problem->supports, node, projector, NULL);
-        ost_apply3(projector, correction + 3 * (size_t)row, of_node);
-    }
     if (ost_newton_is_mixed(newton)) {
-        double *pressures = direction + 3 * (size_t)mesh->node_count;
+        double *pressures = direction + 3 * (size_t)problem->mesh->node_count;
         memcpy(pressures, correction + 3 * (size_t)problem->system->matrix->rows,
                (size_t)problem->pressures->owned * sizeof(double));
         OST_TRY(ost_pressure_complete(problem->pressures, pressures));
     }
-    return ost_agree(newton->ctx, ost_halo_import(mesh->halo, 3 * sizeof(double), direction));
+    return ost_system_displacement(problem->system, 0.0, correction, direction);
 }
 
 /* The load may have no work function (pressure that follows a surface with a free rim): its stiffness then has a skew

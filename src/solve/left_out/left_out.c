@@ -3,7 +3,6 @@
 
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "mesh/nearest.h"
@@ -202,19 +201,6 @@ static OstStatus correct(const OstProblem *problem, OstSolver *solver, const Wor
     return status == OST_NOT_CONVERGED ? OST_SUCCESS : status; /* as far as it has come */
 }
 
-/* The correction of every local node. */
-static OstStatus spread(const OstProblem *problem, const double *taken, double *moved)
-{
-    const OstSystem *system = problem->system;
-    for (OstLocal row = 0; row < system->matrix->rows; row++) {
-        const OstLocal node = system->node_of_row[row];
-        double projector[9];
-        ost_supports_get(problem->supports, node, projector, NULL);
-        ost_apply3(projector, taken + 3 * (size_t)row, moved + 3 * (size_t)node);
-    }
-    return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof(double), moved));
-}
-
 /* The largest change of a node's displacement along itself, relative to the largest displacement: across, what turns
  * moves too, but comes no further. */
 static OstStatus compare(const OstProblem *problem, const OstResult *result, const double *moved, double *change)
@@ -252,7 +238,7 @@ static OstStatus find(const OstProblem *problem, OstSolver *solver, int is_watch
     OST_TRY(find_residual(problem, result, work));
     OST_TRY(correct(problem, solver, work));
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &result->left_out, 3 * (size_t)problem->mesh->node_count)));
-    OST_TRY(spread(problem, work->taken, result->left_out));
+    OST_TRY(ost_system_displacement(problem->system, 0.0, work->taken, result->left_out));
     OST_TRY(compare(problem, result, result->left_out, &change));
     ost_log(problem->ctx, OST_LOG_VERBOSE,
             "large rotation: what linear theory leaves out changes the displacement by "
