@@ -173,6 +173,32 @@ static OstMesh *make_crooked_block(OstContext *on)
     return mesh;
 }
 
+/* A ring of few tets: curved so far that straight pieces of some would turn over. */
+static OstMesh *make_coarse_ring(OstContext *on)
+{
+    const OstTubeShape shape = {1, {0.5, -1.0, 2.0}, 2.0, {0.9, 1.5}, 4, 1, 1};
+    const OstShapeSurface surface = ost_shape_surface_tube(&shape);
+    OstMesh *linear = mesh_of_tube(on, &shape), *mesh = NULL;
+    linear->straighten = 1;
+    assert_int_equal(ost_mesh_raise(linear, &surface, &mesh), OST_SUCCESS);
+    ost_mesh_destroy(&linear);
+    return mesh;
+}
+
+static void pieces_that_would_turn_over_are_straight(void **state)
+{
+    static const double middle[3] = {0.5, 0.5, 0.5};
+    Twins twins = {0};
+    start_twins(&twins, make_coarse_ring);
+    const double volume = curved_volume(twins.mesh);
+    for (int generation = 0; generation < 5; generation++) {
+        bisect_twins(&twins, middle, 2.0, NULL);
+        assert_true(worst_quality(twins.mesh) > 0.02);
+        assert_close(curved_volume(twins.mesh) / volume, 1.0, 1e-3);
+    }
+    end_twins(&twins);
+}
+
 static void shapes_of_an_irregular_mesh_stay_bounded(void **state)
 {
     static const double inside[3] = {0.3, 0.4, 0.55};
@@ -339,6 +365,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(ten_generations_are_the_same_on_any_number_of_ranks),
     cmocka_unit_test(tubes_are_bisected_onto_their_circles),
     cmocka_unit_test(curved_tets_keep_their_space),
+    cmocka_unit_test(pieces_that_would_turn_over_are_straight),
     cmocka_unit_test(shapes_of_an_irregular_mesh_stay_bounded),
     cmocka_unit_test(regions_axes_points_and_curves_are_inherited),
     cmocka_unit_test(fields_are_carried),

@@ -88,7 +88,7 @@ OstStatus ost_bisection_create(const OstMesh *mesh, OstBisection **bisection)
 typedef struct Load {
     const Forest *forest;
     int width;
-    const double *old;
+    const double *old; /* NULL: where the nodes are */
     OstLocal count;
     OstLocal *place; /* of vertices and edges: 1 + item, or 0 */
     OstKey *key;
@@ -109,7 +109,17 @@ static void load_point(Load *load, const Leaf *leaf, OstLocal point, OstKey key,
         return;
     load->key[item] = key;
     load->order[item] = root;
-    ost_forest_value(mesh, leaf->root, b, load->width, load->old, load->value + (size_t)item * (size_t)load->width);
+    ost_forest_value(mesh, leaf->root, b, load->width, load->old ? load->old : mesh->coordinates,
+                     load->value + (size_t)item * (size_t)load->width);
+}
+
+/* Where a vertex that is not on the old curve is, and edges at it are straight. */
+static void straighten(Load *load, OstLocal point, OstLocal p, OstLocal q)
+{
+    const ForestVertex *from = &load->forest->vertex[p], *to = &load->forest->vertex[q];
+    double *x = load->value + 3 * (size_t)(load->place[point] - 1);
+    for (int d = 0; d < 3 && !load->old && (from->flat || to->flat); d++)
+        x[d] = 0.5 * from->x[d] + 0.5 * to->x[d];
 }
 
 static void load_leaf(Load *load, const Leaf *leaf, int with_edges)
@@ -121,6 +131,7 @@ static void load_leaf(Load *load, const Leaf *leaf, int with_edges)
         label[v] = forest->vertex[leaf->vertex[v]].label;
         ost_forest_barycentric(forest, leaf, v, b[v]);
         load_point(load, leaf, leaf->vertex[v], ost_key(label[v], label[v]), b[v]);
+        straighten(load, leaf->vertex[v], leaf->vertex[v], leaf->vertex[v]);
     }
     for (int e = 0; with_edges && e < 6; e++) {
         const int p = ost_tet_edge[e][0], q = ost_tet_edge[e][1];
@@ -128,6 +139,7 @@ static void load_leaf(Load *load, const Leaf *leaf, int with_edges)
         for (int v = 0; v < 4; v++)
             middle[v] = 0.5 * (b[p][v] + b[q][v]);
         load_point(load, leaf, forest->vertex_count + leaf->edge[e], ost_key(label[p], label[q]), middle);
+        straighten(load, forest->vertex_count + leaf->edge[e], leaf->vertex[p], leaf->vertex[q]);
     }
 }
 
@@ -287,11 +299,12 @@ done:
     return status;
 }
 
-/* Mid-edge nodes of the new mesh go where the old tets, which may be curved, have them. */
+/* Mid-edge nodes of the new mesh go where the old tets, which may be curved, have them. A piece that folds over, as the
+ * old tet did between its nodes, becomes straight. */
 static OstStatus bend(const OstBisection *bisection, OstMesh *mesh)
 {
-    const Forest *forest = bisection->forest;
-    OST_TRY(carry(forest, 3, forest->mesh->coordinates, mesh, mesh->coordinates));
+    OST_TRY(carry(bisection->forest, 3, NULL, mesh, mesh->coordinates));
+    mesh->straighten = 1;
     return ost_check_folds(mesh);
 }
 

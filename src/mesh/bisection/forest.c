@@ -67,7 +67,8 @@ static OstStatus file_vertices(Forest *forest)
     forest->vertex_count = mesh->node_count;
     for (OstLocal n = 0; n < mesh->node_count; n++) {
         ForestVertex *vertex = &forest->vertex[n];
-        *vertex = (ForestVertex){mesh->node_label[n], {-1, -1}, -1, n >= mesh->owned_nodes, {0.0}};
+        *vertex = (ForestVertex){
+            .label = mesh->node_label[n], .ends = {-1, -1}, .holder = -1, .shared = n >= mesh->owned_nodes};
         memcpy(vertex->x, mesh->coordinates + 3 * (size_t)n, sizeof vertex->x);
     }
     for (OstLocal t = mesh->owned_tets; t < mesh->tet_count; t++)
@@ -288,5 +289,6 @@ OstStatus ost_forest_grow(Forest *forest, const unsigned char *times)
         status = cut_round(forest, times, &round, &cut);
     OST_FREE(round.leaf);
     ost_cuts_destroy(&forest->cuts);
+    OST_THEN(ost_forest_flatten(forest));
     return status;
 }

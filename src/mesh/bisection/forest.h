@@ -41,6 +41,7 @@ typedef struct ForestVertex {
     OstLocal ends[2]; /* of the edge that it cuts; -1 for a node of the old mesh */
     int holder;       /* the rank that puts it into the new mesh; -1 for a node of the old mesh */
     char shared;      /* may other ranks have tets with it? */
+    char flat;        /* is it put halfway between its ends, as tets would turn over? (flat.c) */
     double x[3];
 } ForestVertex;
 
@@ -81,6 +82,10 @@ void ost_forest_destroy(Forest **forest);
 /* Collective. Bisects each of the rank's own tets and their children as many times as it says, and others until all
  * tets of the body meet in whole faces. */
 OstStatus ost_forest_grow(Forest *forest, const unsigned char *times);
+
+/* Collective, once it has grown. Puts new vertices halfway between the ends of their edges where straight leaves would
+ * turn over, and warns. */
+OstStatus ost_forest_flatten(Forest *forest);
 
 /* Collective. The leaves as a chunk of linear tets. The leaves are put in order: by root, then by path. `leaf_label`
  * receives the label of each, an array that the caller frees. */
