@@ -225,7 +225,8 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
     reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-    ost_log_set_level(ctx, OST_LOG_QUIET);
+    if (level != OST_LOG_VERBOSE)
+        ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);
     return status;
