@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "support.h"
+
+#include "hard_grid/grid.h"
+
+#include <math.h>
+
+/* A refusal is judged without factors. Plates of quadratic tets: rounding has made one indefinite, so that a motion has
+ * a negative energy, and leaves another without a digit; an isotropic one it hardly moves. A cube, no plate, is nowhere
+ * near. */
+static void soft_motions_show_what_rounding_leaves(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape;
+        HardPoint point;
+        int indefinite;
+        double least, most; /* of the energy, that rounding changes */
+    } bodies[] = {{"plate", {.poisson = 2, .ratio = 1, .stiff = 2, .axes = 0}, 1, NAN, NAN},
+                  {"plate", {.poisson = 1, .ratio = 1, .stiff = 0, .axes = 1, .size = 60000}, 0, 0.1, 1.0},
+                  {"plate", {.poisson = 1}, 0, 1e-6, 1e-2},
+                  {"slivers", {.poisson = 1}, 0, 1e-20, 1e-12}};
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
+        HardPoint point = bodies[i].point;
+        HardTruth truth = {.rounded = NAN};
+        HardCase hard;
+        OstMeshChunk *chunk = NULL;
+        OstScene *scene = NULL;
+        point.shape = hard_find_shape(bodies[i].shape);
+        point.order = 2;
+        assert_success(hard_make_case(ctx, &point, &hard));
+        assert_success(hard_make_chunk(&point, &hard.c, &chunk));
+        assert_success(ost_scene_create_on(&hard.c, &chunk, &scene));
+        assert_success(hard_find_singular(scene, &truth));
+        ost_scene_destroy(&scene);
+        if (ost_rank(ctx) == 0)
+            print_message("%s: indefinite %d, moved by %g\n", bodies[i].shape, truth.indefinite, truth.rounded);
+        assert_int_equal(truth.indefinite, bodies[i].indefinite);
+        if (!truth.indefinite)
+            assert_true(truth.rounded >= bodies[i].least && truth.rounded <= bodies[i].most);
+    }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(soft_motions_show_what_rounding_leaves),
+};
+
+OST_TEST_MAIN(tests)
