@@ -121,7 +121,7 @@ static void plan_first(const OstSolverFacts *facts, int fits, OstSolverPlan *pla
 }
 
 /* Under a contrast smaller aggregates cost more than they save: their coarse nodes have 180 neighbours. Checkerboards,
- * soft and stiff inclusions of linear tets, 20,000 unknowns, nu 0.49 and 0.499, take 0.7 to 0.96 of the iterations and
+ * soft and stiff inclusions of linear tets, 20,000 unknowns, nu 0.49 and 0.499, take 0.6 to 0.9 of the iterations and
  * 1.2 to 3.8 times the seconds with 15 and 10 nodes in place of 40. */
 static int is_uneven(const OstSolverFacts *facts)
 {

@@ -5,21 +5,19 @@
 
 #include <math.h>
 
-/* A refusal is judged without factors. Plates of quadratic tets: rounding has made one indefinite, so that a motion has
- * a negative energy, and leaves another without a digit; an isotropic one it hardly moves. A cube, no plate, is nowhere
- * near. */
+/* A refusal is judged without factors. Of plates of quadratic tets rounding makes one indefinite, or nearly so, as the
+ * order of sums has it; leaves another without a digit; and hardly moves an isotropic one. A cube is nowhere near. */
 static void soft_motions_show_what_rounding_leaves(void **state)
 {
     (void)state;
     static const struct {
         const char *shape;
         HardPoint point;
-        int indefinite;
         double least, most; /* of the energy, that rounding changes */
-    } bodies[] = {{"plate", {.poisson = 2, .ratio = 1, .stiff = 2, .axes = 0}, 1, NAN, NAN},
-                  {"plate", {.poisson = 1, .ratio = 1, .stiff = 0, .axes = 1, .size = 60000}, 0, 0.1, 1.0},
-                  {"plate", {.poisson = 1}, 0, 1e-6, 1e-2},
-                  {"slivers", {.poisson = 1}, 0, 1e-20, 1e-12}};
+    } bodies[] = {{"plate", {.poisson = 2, .ratio = 1, .stiff = 2, .axes = 0}, 1.0, INFINITY},
+                  {"plate", {.poisson = 1, .ratio = 1, .stiff = 0, .axes = 1, .size = 60000}, 0.1, 1.0},
+                  {"plate", {.poisson = 1}, 1e-6, 1e-2},
+                  {"slivers", {.poisson = 1}, 1e-20, 1e-12}};
     for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; i++) {
         HardPoint point = bodies[i].point;
         HardTruth truth = {.rounded = NAN};
@@ -35,9 +33,8 @@ static void soft_motions_show_what_rounding_leaves(void **state)
         ost_scene_destroy(&scene);
         if (ost_rank(ctx) == 0)
             print_message("%s: indefinite %d, moved by %g\n", bodies[i].shape, truth.indefinite, truth.rounded);
-        assert_int_equal(truth.indefinite, bodies[i].indefinite);
-        if (!truth.indefinite)
-            assert_true(truth.rounded >= bodies[i].least && truth.rounded <= bodies[i].most);
+        const double moved = truth.indefinite ? INFINITY : truth.rounded;
+        assert_true(moved >= bodies[i].least && moved <= bodies[i].most);
     }
 }
 
