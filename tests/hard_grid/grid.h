@@ -166,6 +166,9 @@ OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, 
 /* Collective. The same of a body that is too large to be factored: the residual in the tets' equations alone. */
 OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
+/* Collective. The same of one that is refused: fills indefinite and rounded, without factors (singular.h). */
+OstStatus hard_find_singular(const OstScene *scene, HardTruth *truth);
+
 /* Collective. Solves one point and judges it. Fails only if the grid itself cannot go on. */
 OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *reading);
 

@@ -97,14 +97,18 @@ static int is_true(const HardReading *reading)
     return truth->error <= truth->amplification * (reading->residual + truth->floor) / least_stated;
 }
 
+static int is_hopeless(const HardTruth *truth)
+{
+    return truth->indefinite || truth->rounded > hard_hopeless;
+}
+
 static void judge(HardReading *reading)
 {
     const HardTruth *truth = &reading->truth;
-    const int hopeless_case = truth->indefinite || truth->rounded > hard_hopeless;
     const double error = truth->off.known ? truth->off.displacement : truth->error;
     reading->digits = truth->known ? fmin(-log10(error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
-        reading->outcome = hopeless_case ? HARD_REFUSED : HARD_GIVEN_UP;
+        reading->outcome = is_hopeless(truth) ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)
         fail(reading, HARD_FALSE, "solved, but there is no direct solution");
     else if (!is_true(reading))
@@ -127,7 +131,7 @@ static void judge_mixed(HardReading *reading)
     const double error = truth->off.known ? truth->off.displacement : truth->error;
     reading->digits = truth->known ? fmin(-log10(error), 16.0) : NAN;
     if (reading->status != OST_SUCCESS)
-        reading->outcome = truth->indefinite || truth->rounded > hard_hopeless ? HARD_REFUSED : HARD_GIVEN_UP;
+        reading->outcome = is_hopeless(truth) ? HARD_REFUSED : HARD_GIVEN_UP;
     else if (!truth->known)
         fail(reading, HARD_FALSE, "solved, but there is no direct solution");
     else if (!is_true_mixed(reading))
@@ -147,6 +151,16 @@ static void judge_residual(HardReading *reading)
         fail(reading, HARD_FALSE, "its residual is not as stated");
     else
         reading->outcome = reading->rounding_limited ? HARD_SOLVED_TO_ROUNDING : HARD_SOLVED;
+}
+
+/* At size, of a refusal: no factors are needed where a soft motion shows that rounding leaves no digit. */
+static OstStatus judge_refusal(const OstScene *scene, HardReading *reading)
+{
+    OST_TRY(hard_find_singular(scene, &reading->truth));
+    reading->digits = NAN;
+    if (is_hopeless(&reading->truth))
+        reading->outcome = HARD_REFUSED;
+    return OST_SUCCESS;
 }
 
 /* Is this a failure of the point, and not of the grid? */
@@ -175,7 +189,7 @@ static int needs_factors(const HardReading *reading)
     if (size == 0)
         return 1;
     if (reading->status != OST_SUCCESS)
-        return size <= refused_size;
+        return reading->outcome != HARD_REFUSED && size <= refused_size;
     return size <= rounded_size && reading->outcome == HARD_SOLVED_TO_ROUNDING;
 }
 
@@ -189,6 +203,8 @@ OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
         status = hard_find_residual(scene, result, &reading->truth);
     if (size > 0 && status == OST_SUCCESS)
         judge_residual(reading);
+    if (status == OST_SUCCESS && size > 0 && reading->status != OST_SUCCESS)
+        status = judge_refusal(scene, reading);
     if (status == OST_SUCCESS && needs_factors(reading))
         status = compare(scene, result, reading);
     ost_result_destroy(&result);
@@ -225,7 +241,8 @@ OstStatus hard_read(OstContext *ctx, const HardPoint *point, HardReading *readin
     const OstLogLevel level = ost_log_level(ctx);
     *reading = (HardReading){.point = *point, .residual = NAN, .digits = NAN};
     reading->truth = (HardTruth){0, 0, NAN, {0, NAN, NAN, NAN}, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-    ost_log_set_level(ctx, OST_LOG_QUIET);
+    if (level != OST_LOG_VERBOSE)
+        ost_log_set_level(ctx, OST_LOG_QUIET);
     const OstStatus status = read_point(ctx, point, reading);
     ost_log_set_level(ctx, level);
     return status;

@@ -5,6 +5,7 @@
 #include "hard_grid/direct.h"
 #include "hard_grid/exact.h"
 #include "hard_grid/grid.h"
+#include "hard_grid/singular.h"
 
 #include <math.h>
 #include <string.h>
@@ -134,6 +135,15 @@ OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, Har
     OstStatus status = hard_direct_assemble(scene, &direct);
     if (status == OST_SUCCESS)
         status = hard_find_exact_residual(scene, &direct, result, &truth->residual);
+    hard_direct_clear(&direct);
+    return status;
+}
+
+OstStatus hard_find_singular(const OstScene *scene, HardTruth *truth)
+{
+    HardDirect direct;
+    OstStatus status = hard_direct_assemble(scene, &direct);
+    OST_THEN(hard_find_softest(scene, &direct, truth));
     hard_direct_clear(&direct);
     return status;
 }

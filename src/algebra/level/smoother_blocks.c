@@ -24,23 +24,35 @@ void ost_smoother_blocks_destroy(OstSmootherBlocks **blocks)
     OST_FREE(*blocks);
 }
 
-/* One block per aggregate; those too large for a dense inverse are split. */
+/* Adds the block of node[] up to `end`. */
+static void end_block(OstSmootherBlocks *blocks, OstLocal end)
+{
+    const OstLocal b = blocks->count++;
+    const size_t side = (size_t)blocks->size * (size_t)(end - blocks->node_start[b]);
+    blocks->node_start[b + 1] = end;
+    blocks->value_start[b + 1] = blocks->value_start[b] + side * side;
+}
+
+/* One block per aggregate, and per node that is in none; those too large for a dense inverse are split. */
 static OstStatus list_blocks(const OstAggregates *aggregates, OstLocal nodes, OstSmootherBlocks *blocks)
 {
     OstContext *ctx = blocks->ctx;
     OstLocal *start = NULL;
     OstStatus status = OST_SUCCESS;
-    const size_t room = (size_t)aggregates->count + (size_t)nodes / OST_LARGEST_BLOCK + 1;
+    size_t room = (size_t)aggregates->count + (size_t)nodes / OST_LARGEST_BLOCK + 1;
+    for (OstLocal i = 0; i < nodes; i++)
+        room += aggregates->of_node[i] < 0;
     OST_TRY_DONE(ost_aggregates_list(aggregates, nodes, &start, &blocks->node));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->node_start, room));
     OST_TRY_DONE(OST_NEW(ctx, &blocks->value_start, room));
     for (OstLocal a = 0; a < aggregates->count; a++)
-        for (OstLocal from = start[a]; from < start[a + 1]; from += OST_LARGEST_BLOCK) {
-            const OstLocal end = from + OST_LARGEST_BLOCK < start[a + 1] ? from + OST_LARGEST_BLOCK : start[a + 1];
-            const size_t side = (size_t)blocks->size * (size_t)(end - from);
-            const OstLocal b = blocks->count++;
-            blocks->node_start[b + 1] = end;
-            blocks->value_start[b + 1] = blocks->value_start[b] + side * side;
+        for (OstLocal from = start[a]; from < start[a + 1]; from += OST_LARGEST_BLOCK)
+            end_block(blocks, from + OST_LARGEST_BLOCK < start[a + 1] ? from + OST_LARGEST_BLOCK : start[a + 1]);
+    for (OstLocal i = 0; i < nodes; i++)
+        if (aggregates->of_node[i] < 0) {
+            const OstLocal end = blocks->node_start[blocks->count];
+            blocks->node[end] = i;
+            end_block(blocks, end + 1);
         }
     OST_TRY_DONE(OST_NEW(ctx, &blocks->value, blocks->value_start[blocks->count] + OST_PADDING));
 done:

@@ -48,7 +48,8 @@ static OstStatus allow_memory(const OstLevels *levels, const OstSolverOptions *o
     return OST_SUCCESS;
 }
 
-/* Factors the coarsest level, or makes its smoother if it is too large. */
+/* Factors the coarsest level, or makes its smoother if it is too large. Where coarsening stopped early, as all that is
+ * left is apart, a smoother does as well: factors that do not fit into memory are left out. */
 static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSolverOptions *options)
 {
     OstLevels *levels = &cycle->levels;
@@ -56,12 +57,17 @@ static OstStatus prepare_coarsest(OstContext *ctx, OstCycle *cycle, const OstSol
     OstGlobal unknowns = (OstGlobal)ost_level_unknowns(levels->matrix[last]);
     double memory = 0.0;
     OstStatus status = ost_sum_numbers(ctx, 1, &unknowns);
-    const int factored = levels->flat || unknowns <= LARGEST_FACTORED || levels->count >= options->most_levels;
+    const int needed = levels->flat || levels->count >= options->most_levels;
+    int factored = needed || unknowns <= LARGEST_FACTORED;
     if (status == OST_SUCCESS && factored)
         status = allow_memory(levels, options, &memory);
     if (status == OST_SUCCESS && factored)
         status = ost_coarsest_create(levels->coarsest, memory, &cycle->coarsest);
-    else if (status == OST_SUCCESS)
+    if (status == OST_OUT_OF_MEMORY && !needed) {
+        status = OST_SUCCESS;
+        factored = 0;
+    }
+    if (status == OST_SUCCESS && !factored)
         status = ost_smoother_create(levels->matrix[last], levels->graph[last], options, &levels->smoother[last]);
     ost_double_matrix_destroy(&levels->coarsest);
     ost_metric_graph_destroy(&levels->graph[last]);

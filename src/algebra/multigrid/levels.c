@@ -21,6 +21,9 @@ static const double least_gain = 0.8;
  * largest jump of stiffness. */
 static const double weakest = 0.03, weak_jump = 10.0;
 
+/* A coarse node is alone where the squares of its connections' strengths add up to less. */
+static const double alone = 1e-4;
+
 /* Up to a ratio of 1000 between Young's moduli (shortening, its root, up to 32) the options are used as they are.
  * Beyond it the stiff direction is nearly inextensible: the six modes of an aggregate represent that over few nodes
  * only, and the smoother's blocks must be as large. Iterations on the tube of cases/tube with a ratio of 1e6, stiff
@@ -93,6 +96,53 @@ static void part_weak(const OstDoubleMatrix *matrix, OstMetricGraph *graph)
         }
 }
 
+/* Is the node hardly connected to others, as a soft pocket between stiff cells? By the sum of its connections' squared
+ * strengths; only where all of them are this rank's. */
+static int is_alone(const OstDoubleMatrix *matrix, OstLocal i)
+{
+    const size_t entries = (size_t)(matrix->size * matrix->size);
+    const double *own = ost_double_matrix_diagonal(matrix, i);
+    const double own_square = ost_dot(entries, own, own);
+    double sum = 0.0, room[OST_BLOCK];
+    for (OstLocal k = matrix->row_start[i]; k < matrix->row_start[i + 1]; k++) {
+        const OstLocal j = matrix->column[k];
+        if (j >= matrix->rows)
+            return 0;
+        if (j == i)
+            continue;
+        const double *between = ost_double_matrix_block(matrix, matrix->size, i, k, room);
+        const double *other = ost_double_matrix_diagonal(matrix, j);
+        sum += ost_dot(entries, between, between) / sqrt(own_square * ost_dot(entries, other, other));
+    }
+    return sum < alone;
+}
+
+/* Leaves nodes that are alone to the smoother, which solves for them: they would be nodes of all coarser levels, too
+ * many to be factored. */
+static OstStatus leave_alone(const OstDoubleMatrix *matrix, OstAggregates *aggregates)
+{
+    OstLocal *number = NULL, count = 0;
+    OST_TRY(OST_NEW(matrix->ctx, &number, aggregates->count));
+    for (OstLocal i = 0; i < matrix->rows; i++) /* nodes of each, up to here */
+        if (aggregates->of_node[i] >= 0)
+            number[aggregates->of_node[i]]++;
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        if (aggregates->of_node[i] >= 0 && number[aggregates->of_node[i]] == 1 && is_alone(matrix, i))
+            aggregates->of_node[i] = -1;
+    memset(number, 0, (size_t)aggregates->count * sizeof *number);
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        if (aggregates->of_node[i] >= 0)
+            number[aggregates->of_node[i]] = 1;
+    for (OstLocal a = 0; a < aggregates->count; a++)
+        number[a] = number[a] ? count++ : -1;
+    for (OstLocal i = 0; i < matrix->rows; i++)
+        if (aggregates->of_node[i] >= 0)
+            aggregates->of_node[i] = number[aggregates->of_node[i]];
+    aggregates->count = count;
+    OST_FREE(number);
+    return OST_SUCCESS;
+}
+
 /* Nodes of an aggregate of level l, which is the coarsest so far. */
 static OstStatus choose_target(const Coarsening *work, int l, double *target)
 {
@@ -102,7 +152,7 @@ static OstStatus choose_target(const Coarsening *work, int l, double *target)
     OstGlobal entries[2] = {matrix->nonzeros, square * matrix->rows};
     *target = l == 0 ? options->aggregate_nodes : options->coarse_aggregate_nodes;
     const double most = options->own_blocks || work->has_vertices ? most_below_quadratic : most_coarse_nodes;
-    if (l == 0 || options->given & OST_GIVEN_COARSE_AGGREGATE || ost_metric_graph_is_uneven(work->levels->graph[l]))
+    if (l == 0 || options->given & OST_GIVEN_COARSE_AGGREGATE)
         return OST_SUCCESS;
     OST_TRY(ost_sum_numbers(work->ctx, 2, entries));
     *target = fmax(*target, fmin(row_share * (double)entries[0] / (double)entries[1], most));
@@ -123,6 +173,8 @@ static OstStatus aggregate(Coarsening *work, OstAggregates **aggregates, OstGlob
     work->columns = NULL;
     work->by_columns = *aggregates != NULL;
     OstStatus status = *aggregates ? OST_SUCCESS : ost_aggregates_create(graph, &shape, aggregates);
+    if (l > 0 && ost_metric_graph_is_uneven(graph))
+        OST_THEN(leave_alone(work->levels->coarsest, *aggregates));
     OST_THEN(ost_metric_graph_coarsen(graph, *aggregates, &work->levels->graph[l + 1]));
     OST_TRY(ost_agree(work->ctx, status));
     *unknowns = OST_MODES * (OstGlobal)(*aggregates)->count;
