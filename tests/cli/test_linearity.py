@@ -166,7 +166,15 @@ def floating(folder):
         with open(os.path.join(folder, "floating.json")) as stream:
             report = json.load(stream)
         check(abs(report["checks"]["stiffening"] / expected - 1) < 1e-3, f"{word}: {report['checks']}")
-        check(word == "off" or not report["large_rotation"]["newton"], f"{report['large_rotation']}")
+        if word == "off":
+            check("off by about 4.5 %; take large_rotation: on, or scale the loads down" in finished.output, finished.output)
+        else:
+            check(not report["large_rotation"]["newton"], f"{report['large_rotation']}")
+    # where large rotations cannot be solved for, they are not advised
+    write(folder, "moved.yaml", CASE.replace("WORD", "off").replace(
+        "total_force: FORCE", "distributing: {at: [4, 0.5, 0.5], displacement: [0.1, 0.1, free]}"))
+    finished = run("solve", "moved.yaml", folder=folder)
+    check("stiffer as it turns" in finished.output and "large_rotation: on" not in finished.output, finished.output)
 
 
 main()
