@@ -149,7 +149,7 @@ typedef struct OstWatchedValue {
     double expected; /* NAN if not known, as is `error`: the exact value less this one, as estimated */
     double error;
     int by_adjoint; /* is the error by the adjoint problem, so that adding it makes the value better? */
-    int placed;     /* is it a least or largest value, and `place` where it is? */
+    int placed;     /* is it a least or largest value, and `place` where it is (else NAN)? */
     double place[3];
     const char *why;   /* is the error not known although the estimate was asked for; NULL else */
     const char *exact; /* why the value has no error of the mesh, in words; NULL: it has one, or it is not known */

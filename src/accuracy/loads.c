@@ -235,7 +235,8 @@ static OstStatus add_load(const OstScene *scene, const OstComplement *complement
 {
     const OstLoad *load = &scene->c->loads[i];
     const int in_volume = ost_load_in_volume(load->kind), on_surface = scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD;
-    if (!in_volume && !on_surface && scene->load_effect[i] != OST_EFFECT_MOMENT)
+    if (!in_volume && !on_surface && scene->load_effect[i] != OST_EFFECT_MOMENT &&
+        scene->load_effect[i] != OST_EFFECT_MOVED_COUPLING)
         return OST_SUCCESS;
     OstStatus status = *force ? OST_SUCCESS : OST_NEW(scene->ctx, force, 3 * (size_t)complement->count);
     OST_TRY(ost_agree(scene->ctx, status));

@@ -90,10 +90,16 @@ static double estimate_of(const OstAdaptLevel *level)
     return level->relative_error / level->missed;
 }
 
+/* Is the error of the last level that of a quantity? */
+static int is_of_watch(const OstAdaption *adaption)
+{
+    return adaption->watch && !adaption->level[adaption->count - 1].by_norm;
+}
+
 /* The error of a quantity falls like the square of that in the norm of the energy. */
 static double power_of(const OstAdaption *adaption)
 {
-    return adaption->watch ? 2.0 : 1.0;
+    return is_of_watch(adaption) ? 2.0 : 1.0;
 }
 
 /* A displacement below this share of the largest one, as one that is zero by symmetry, is compared with that share. */
@@ -144,7 +150,7 @@ static double rate_of(const OstAdaption *adaption, double least_share)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     const double smooth = power_of(adaption) * last->order / 3.0;
-    if (adaption->count < 2 || last[-1].order != last->order)
+    if (adaption->count < 2 || last[-1].order != last->order || last[-1].by_norm != last->by_norm)
         return smooth;
     const double found =
         log(estimate_of(&last[-1]) / estimate_of(last)) / log((double)last->unknowns / (double)last[-1].unknowns);
@@ -178,10 +184,30 @@ static void foretell(OstAdaption *adaption)
 
 /* --- levels --- */
 
+/* May linear theory do on this mesh alone? With this error e relative to u + e, the exact solution moves by up to
+ * 1 / (1 - e²) times as much, and what linear theory leaves out grows like the square of that. */
+static int is_too_stiff_to_judge(const OstResult *result)
+{
+    const OstNewtonReport *newton = &result->newton;
+    const double seen = 1.0 - result->answer.relative * result->answer.relative;
+    return newton->judged && !newton->used && newton->linear_error > newton->accuracy * seen * seen;
+}
+
+/* A quantity may be right while that is open, as a reaction is that statics gives: then the norm of the energy counts.
+ */
+static void doubt_linear_theory(const OstAdaption *adaption, OstResult *result, OstAdaptLevel *level)
+{
+    if (!adaption->watch || error_of(level) > safety_of(level) * adaption->request || !is_too_stiff_to_judge(result))
+        return;
+    level->by_norm = 1;
+    level->relative_error = result->answer.relative;
+    OST_FREE(result->interest.share);
+}
+
 static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start)
 {
     OstAdaptLevel *level = &adaption->level[adaption->count++];
-    const OstResult *result = stage->result;
+    OstResult *result = stage->result;
     *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
                              .tets = stage->scene->mesh->global_tets,
                              .unknowns = result->unknowns,
@@ -199,12 +225,14 @@ static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start
     level->error.known &= !adaption->watch || result->interest.watch;
     if (level->error.known)
         add_missed(adaption, stage);
+    if (level->error.known)
+        doubt_linear_theory(adaption, result, level);
     OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
     OST_TRY(seconds_since(adaption->ctx, start, &level->seconds));
     ost_log(adaption->ctx, OST_LOG_VERBOSE,
             "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %.2g %% off in %s; %.3f s",
             adaption->count, level->order, (long long)level->tets, (long long)level->unknowns, level->iterations,
-            100.0 * level->relative_error, adaption->watch ? adaption->watch->name : "energy", level->seconds);
+            100.0 * level->relative_error, is_of_watch(adaption) ? adaption->watch->name : "energy", level->seconds);
     return OST_SUCCESS;
 }
 
@@ -238,7 +266,7 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
     const double wanted = fmax((last->is_measured ? aim_of_measured : aim) * adaption->request,
                                error / pow(most_reduction[order], power));
     const double norm = last->error.energy_norm / last->missed; /* as the tets' shares have it */
-    const double square = adaption->watch ? last->shares : norm * norm;
+    const double square = is_of_watch(adaption) ? last->shares : norm * norm;
     const double fall = fmin(wanted / error, 1.0);
     const double needed = pow(fall, -1.0 / rate_of(adaption, 0.7)), target = square * pow(fall, 2.0 / power);
     const double most = fmin(growth, most_growth);

@@ -79,6 +79,7 @@ void ost_adaption_print(const OstAdaption *adaption)
     char words[OST_LONGEST_ADAPT_WORDS];
     if (ost_rank(adaption->ctx) != 0 || adaption->count == 0)
         return;
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     printf("  levels           order       tets   unknowns  iterations  error estimated  seconds\n");
     for (int l = 0; l < adaption->count; l++) {
         const OstAdaptLevel *level = &adaption->level[l];
@@ -93,8 +94,8 @@ void ost_adaption_print(const OstAdaption *adaption)
     ost_adaption_words(adaption, words);
     if (adaption->end == OST_ADAPT_MET)
         printf("  request          %.3g %% asked for, about %.2g %% reached, of %s\n", 100.0 * adaption->request,
-               100.0 * adaption->level[adaption->count - 1].relative_error,
-               adaption->watch ? adaption->watch->name : "the energy norm");
+               100.0 * last->relative_error,
+               adaption->watch && !last->by_norm ? adaption->watch->name : "the energy norm");
     else
         printf("  WARNING          %s\n", words);
 }

@@ -54,7 +54,7 @@ OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
  */
 static double share_of(const OstStage *stage, OstLocal tet)
 {
-    if (stage->result->interest.watch)
+    if (stage->result->interest.share)
         return stage->result->interest.share[tet];
     const double error = stage->result->tet_error[tet];
     return error * error;

@@ -153,15 +153,12 @@ static OstStatus force_at(const void *data, const double place[3], const double 
 void ost_load_spread_on_faces(const OstMesh *mesh, OstLocal count, const OstLocal *faces, int nodes_per_face,
                               const OstSpread *spread, double *force)
 {
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_MOMENT);
     (void)ost_load_by_traction(mesh, count, faces, nodes_per_face, force_at, spread, force); /* cannot fail */
-    ost_ledger_leave(mesh->ctx);
 }
 
 void ost_load_spread_on_vertices(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const OstSpread *spread,
                                  double *force)
 {
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_MOMENT);
     for (OstLocal n = 0; n < count; n++) {
         double of_node[3];
         if (nodes[n] >= mesh->owned_nodes)
@@ -170,5 +167,4 @@ void ost_load_spread_on_vertices(const OstMesh *mesh, OstLocal count, const OstL
         for (int i = 0; i < 3; i++)
             force[3 * (size_t)nodes[n] + (size_t)i] += of_node[i];
     }
-    ost_ledger_leave(mesh->ctx);
 }

@@ -28,7 +28,7 @@ OstStatus ost_spread_over_faces(const OstMesh *mesh, OstLocal count, const OstLo
 OstStatus ost_spread_over_vertices(const OstMesh *mesh, OstLocal count, const OstLocal *nodes,
                                    const OstResultant *resultant, OstSpread *spread);
 
-/* Local. Adds the nodal forces: consistent ones of a traction, or a force on each vertex. OST_EFFECT_MOMENT. */
+/* Local. Adds the nodal forces: consistent ones of a traction, or a force on each vertex. */
 void ost_load_spread_on_faces(const OstMesh *mesh, OstLocal count, const OstLocal *faces, int nodes_per_face,
                               const OstSpread *spread, double *force);
 void ost_load_spread_on_vertices(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const OstSpread *spread,

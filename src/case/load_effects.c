@@ -14,8 +14,9 @@ OstEffect ost_load_effect(const OstCase *c, const OstLoad *load)
     case OST_LOAD_CENTRIFUGAL:
         return OST_EFFECT_CENTRIFUGAL;
     case OST_LOAD_MOMENT:
-    case OST_LOAD_DISTRIBUTING:
         return OST_EFFECT_MOMENT;
+    case OST_LOAD_DISTRIBUTING:
+        return OST_EFFECT_MOVED_COUPLING;
     case OST_LOAD_PRESSURE:
         return load->follows ? OST_EFFECT_FOLLOWER_PRESSURE : OST_EFFECT_SURFACE_LOAD;
     case OST_LOAD_TRACTION:

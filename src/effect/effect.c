@@ -114,6 +114,10 @@ static int is_solved_linearly(const OstEffectFacts *f)
     return has_links(f) || f->moved_couplings > 0;
 }
 
+static const char free_is_linear[] = "a free body is solved linearly";
+static const char links_are_linear[] =
+    "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly";
+
 /* Why the mixed form is not used, or NULL. */
 static const char *why_not_mixed(const OstEffectFacts *f)
 {
@@ -168,9 +172,9 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
-        off(state, "a free body is solved linearly");
+        off(state, free_is_linear);
     else if (is_solved_linearly(f))
-        off(state, "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly");
+        off(state, links_are_linear);
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
@@ -400,6 +404,18 @@ void ost_effects_name_accounts(OstContext *ctx)
 int ost_effect_on(const OstEffects *effects, OstEffect effect)
 {
     return !effects || effects->state[effect - OST_EFFECT_FIRST].on;
+}
+
+const char *ost_effects_why_linear(const OstEffects *effects)
+{
+    static const OstEffect links[] = {OST_EFFECT_RIGID_FACE, OST_EFFECT_TIE, OST_EFFECT_PERIODIC,
+                                      OST_EFFECT_MOVED_COUPLING};
+    if (ost_effect_on(effects, OST_EFFECT_FREE_BODY))
+        return free_is_linear;
+    for (size_t k = 0; k < sizeof links / sizeof *links; k++)
+        if (ost_effect_on(effects, links[k]))
+            return links_are_linear;
+    return NULL;
 }
 
 const OstEffectState *ost_effect_state(const OstEffects *effects, OstEffect effect)

@@ -73,7 +73,7 @@ typedef struct OstEffectFacts {
     int path_steps, tables; /* outputs of the path, 0: no path; time tables */
     int loads, point_loads, surface_loads, body_loads, gravity_loads, follower_loads, centrifugal_loads;
     int moments;                      /* loads with a moment: those, and forces at a point */
-    int moved_couplings;              /* those of them whose motion is given */
+    int moved_couplings;              /* loads whose motion is given */
     int moved_components;             /* of all of these */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
@@ -116,6 +116,9 @@ int ost_effects_mixed(const OstEffectFacts *facts);
 
 /* Local. Gives the effects' accounts their labels in the ledger. */
 void ost_effects_name_accounts(OstContext *ctx);
+
+/* Local. Why large rotations cannot be solved for, whatever the case asks; NULL: they can. */
+const char *ost_effects_why_linear(const OstEffects *effects);
 
 /* Local. Is an effect on? With NULL every effect is, since no scene says which are needed. */
 int ost_effect_on(const OstEffects *effects, OstEffect effect);

@@ -505,7 +505,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
     OST_TRY_DONE(find_link_forces(result, internal, &links));
-    OST_TRY_DONE(ost_linearity_agree(ctx, &tets.largest));
+    OST_TRY_DONE(ost_linearity_agree(ctx, problem->supports, result->displacement, &tets.largest));
     if (body.turns) {
         OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
         OST_TRY_DONE(find_volume_ratio(problem, result));

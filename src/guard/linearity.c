@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "guard/linearity.h"
 
+#include "assembly/springs.h"
 #include "core/error.h"
 #include "core/kernel.h"
 #include "core/parallel/reduce.h"
@@ -177,9 +178,11 @@ void ost_linearity_add(const OstBatch *batch, const OstElement *element, OstForm
         add_tet(means, angle[slot], work[slot], slot, largest);
 }
 
-OstStatus ost_linearity_agree(OstContext *ctx, OstLinearity *largest)
+OstStatus ost_linearity_agree(OstContext *ctx, const OstSupports *supports, const double *u, OstLinearity *largest)
 {
-    double most[2] = {largest->strain, largest->rotation}, sums[2] = {largest->energy, largest->stiffening};
+    const double of_springs = supports->spring ? ost_spring_energy(supports, u) : 0.0;
+    double most[2] = {largest->strain, largest->rotation};
+    double sums[2] = {largest->energy + of_springs, largest->stiffening};
     OST_TRY(ost_max(ctx, 2, most));
     OST_TRY(ost_sum(ctx, 2, sums));
     *largest = (OstLinearity){most[0], most[1], sums[0], sums[1]};
@@ -193,7 +196,7 @@ static void visit(void *largest, const OstBatch *batch, const OstElement *elemen
 }
 
 OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
-                           OstLinearity *largest)
+                           const OstSupports *supports, OstLinearity *largest)
 {
     *largest = (OstLinearity){0};
     ost_visit_means(mesh, field, 0.0, u, visit, largest);
@@ -202,5 +205,5 @@ OstStatus ost_linearity_of(const OstMesh *mesh, const OstMaterialField *field, d
         ost_visit_means(mesh, field, t, u, visit, &stressed);
         largest->stiffening = stressed.stiffening;
     }
-    return ost_linearity_agree(mesh->ctx, largest);
+    return ost_linearity_agree(mesh->ctx, supports, u, largest);
 }

@@ -151,7 +151,7 @@ static int find_warning(OstPath *path, char text[OST_LONGEST_WARNING])
         checks.largest_rotation = step->largest_rotation;
         worst = i;
     }
-    return ost_linearity_warning(&checks, text) ? worst + 1 : 0;
+    return ost_linearity_warning(&checks, 0, text) ? worst + 1 : 0;
 }
 
 void ost_path_print(const OstScene *scene, OstPath *path, const char *output)

@@ -146,7 +146,7 @@ static void describe_stiffening(double stiffening, char text[48])
     snprintf(text, 48, "%.2g %% %s", 100.0 * fabs(stiffening), stiffening < 0.0 ? "softer" : "stiffer");
 }
 
-int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING])
+int ost_linearity_warning(const OstChecks *checks, int linear_alone, char text[OST_LONGEST_WARNING])
 {
     const double error = ost_linear_error(checks);
     char off[32], stiffened[48];
@@ -159,8 +159,8 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
         snprintf(
             text, OST_LONGEST_WARNING,
             "stress makes the body %s as it turns, by up to %.3g degrees: linear theory, which leaves that out, is "
-            "off %s; take large_rotation: on (not of a free body), or scale the loads down",
-            stiffened, checks->largest_rotation * degrees, off);
+            "off %s; %sscale the loads down",
+            stiffened, checks->largest_rotation * degrees, off, linear_alone ? "" : "take large_rotation: on, or ");
     else
         snprintf(
             text, OST_LONGEST_WARNING,
@@ -173,7 +173,7 @@ int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING
 static int warn_of_linear_theory(const OstResult *result, char text[OST_LONGEST_WARNING])
 {
     const int accepted = result->newton.judged && result->newton.linear_error <= result->newton.accuracy;
-    return !accepted && ost_linearity_warning(&result->checks, text);
+    return !accepted && ost_linearity_warning(&result->checks, result->linear_alone, text);
 }
 
 static int warn_of_inverted(const OstResult *result, char text[OST_LONGEST_WARNING])

@@ -47,8 +47,8 @@ struct json_t *ost_ledger_json(const OstContext *ctx, double nonzeros, const Ost
 enum { OST_WARNINGS_OF_ALL_STEPS = 2, OST_WARNINGS = 7, OST_LONGEST_WARNING = 400 };
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
 
-/* Local. The first of these, of any answer of linear theory. */
-int ost_linearity_warning(const OstChecks *checks, char text[OST_LONGEST_WARNING]);
+/* Local. The first of these, of any answer of linear theory; linear_alone: large rotations cannot be solved for. */
+int ost_linearity_warning(const OstChecks *checks, int linear_alone, char text[OST_LONGEST_WARNING]);
 
 /* Local. The effects of a scene as a list of {effect, on, reason, bytes}, the bytes as predicted; the caller's
  * reference, NULL if jansson fails. */

@@ -330,7 +330,7 @@ static OstStatus add_load(const OstScene *scene, const OstLoad *load, OstEffect 
         status = ost_agree(scene->ctx, add_body_load(scene, load, force));
     else if (effect == OST_EFFECT_SURFACE_LOAD || effect == OST_EFFECT_FOLLOWER_PRESSURE)
         status = add_surface_load(scene, load, force, follower);
-    else if (effect == OST_EFFECT_MOMENT)
+    else if (effect == OST_EFFECT_MOMENT || effect == OST_EFFECT_MOVED_COUPLING)
         status = add_moment(scene, load, force);
     else
         status = add_vertex_load(scene, load, force);

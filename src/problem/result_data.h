@@ -78,6 +78,7 @@ struct OstResult {
     double largest_at[3];
     OstSolveReport solve;
     OstNewtonReport newton;
+    int linear_alone;  /* cannot large rotations be solved for? */
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     OstFailure failure;

@@ -210,7 +210,8 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
         OST_TRY(ost_newton_solve(newton, definite, 1e-3, newton->residual, &found));
     for (size_t i = 0; i < count; i++)
         newton->candidate[i] += found ? newton->direction[i] : 0.0;
-    OST_TRY(ost_linearity_of(mesh, newton->problem->field, 0.0, newton->candidate, &largest));
+    OST_TRY(
+        ost_linearity_of(mesh, newton->problem->field, 0.0, newton->candidate, newton->problem->supports, &largest));
     for (size_t i = 0; i < count; i++)
         state->slope[i] = newton->candidate[i] / (t - state->t);
     state->step = (t - state->t) * ost_newton_first_step(largest.rotation);

@@ -38,7 +38,7 @@ OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result)
     OstLinearity largest;
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     const OstStatus status = ost_linearity_of(problem->mesh, result->field, ost_problem_eigen_share(problem, result->t),
-                                              result->displacement, &largest);
+                                              result->displacement, problem->supports, &largest);
     ost_ledger_leave(problem->ctx);
     OST_TRY(status);
     const OstChecks as_linear = {.largest_strain = largest.strain,

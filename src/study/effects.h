@@ -18,11 +18,15 @@
     X(OST_VARIANT_PLAIN_DILATATION, OST_EFFECT_MEAN_DILATATION, "without mean dilatation")    \
     X(OST_VARIANT_NOT_MOVED, OST_EFFECT_PRESCRIBED_DISPLACEMENT, "constraints held at zero")  \
     X(OST_VARIANT_CLAMPED, OST_EFFECT_SLIDING, "clamped where it slides")                     \
+    X(OST_VARIANT_NO_RIGID_FACE, OST_EFFECT_RIGID_FACE, "without rigid faces")                \
+    X(OST_VARIANT_NO_TIE, OST_EFFECT_TIE, "without tied faces")                               \
+    X(OST_VARIANT_NO_PERIODIC, OST_EFFECT_PERIODIC, "without periodic pairs")                 \
     X(OST_VARIANT_NO_POINT_FORCE, OST_EFFECT_POINT_FORCE, "without point forces")             \
     X(OST_VARIANT_NO_SURFACE_LOAD, OST_EFFECT_SURFACE_LOAD, "without surface loads")          \
     X(OST_VARIANT_NO_BODY_FORCE, OST_EFFECT_BODY_FORCE, "without gravity and body forces")    \
     X(OST_VARIANT_NO_CENTRIFUGAL, OST_EFFECT_CENTRIFUGAL, "without centrifugal loads")        \
     X(OST_VARIANT_NO_MOMENT, OST_EFFECT_MOMENT, "without moments")                            \
+    X(OST_VARIANT_NO_COUPLING, OST_EFFECT_MOVED_COUPLING, "without moved couplings")          \
     X(OST_VARIANT_NO_FOLLOWER, OST_EFFECT_FOLLOWER_PRESSURE, "without pressure that follows") \
     X(OST_VARIANT_NO_EIGENSTRAIN, OST_EFFECT_EIGENSTRAIN, "without eigenstrain")              \
     X(OST_VARIANT_NO_FOUNDATION, OST_EFFECT_FOUNDATION, "without elastic foundation")         \
@@ -34,12 +38,12 @@
 typedef enum { OST_VARIANT_TABLE(OST_VARIANT_ENUM) OST_VARIANT_COUNT } OstVariant;
 #undef OST_VARIANT_ENUM
 
-typedef enum { OST_VARIANT_OFF, OST_VARIANT_SOLVED, OST_VARIANT_FAILED } OstVariantState;
+typedef enum { OST_VARIANT_OFF, OST_VARIANT_SOLVED, OST_VARIANT_FAILED, OST_VARIANT_UNMEASURED } OstVariantState;
 
 /* One solve. Changes are relative to the case as it is; NaN where there is nothing to compare. */
 typedef struct OstEffectRun {
-    OstVariantState state; /* OFF: the case does not have the effect */
-    char reason[OST_ERROR_TEXT_SIZE];
+    OstVariantState state;            /* OFF: the case does not have the effect */
+    char reason[OST_ERROR_TEXT_SIZE]; /* of one that failed, or is not measured */
     OstMeter meter;
     OstGlobal unknowns;
     int iterations;
@@ -60,6 +64,9 @@ typedef struct OstEffectStudy {
 
 /* Local. Does a variant apply to the case, given its effects and how it was solved? */
 int ost_variant_applies(const OstEffectStudy *study, const OstEffects *effects, OstVariant variant);
+
+/* Local. Why a variant that applies cannot be run, or NULL. */
+const char *ost_variant_why_unmeasured(const OstEffects *effects, OstVariant variant);
 
 extern const char *const ost_variant_label[]; /* by OstVariant */
 extern const OstEffect ost_variant_effect[];

@@ -10,8 +10,10 @@
 enum { LABEL_WIDTH = 34, CELL_WIDTH = 12, CELL_SIZE = 40 };
 static const double mebibyte = 1048576.0;
 
-static const char *const state_word[] = {
-    [OST_VARIANT_OFF] = "off", [OST_VARIANT_SOLVED] = "solved", [OST_VARIANT_FAILED] = "failed"};
+static const char *const state_word[] = {[OST_VARIANT_OFF] = "off",
+                                         [OST_VARIANT_SOLVED] = "solved",
+                                         [OST_VARIANT_FAILED] = "failed",
+                                         [OST_VARIANT_UNMEASURED] = "not measured"};
 
 static void percent(double share, char *text, size_t size)
 {
@@ -62,6 +64,17 @@ static void print_list(const OstEffectStudy *study, const char *heading, int nee
         printf("\n");
 }
 
+static void print_unmeasured(const OstEffectStudy *study)
+{
+    int listed = 0;
+    for (int v = 0; v < OST_VARIANT_COUNT; v++)
+        if (study->run[v].state == OST_VARIANT_UNMEASURED)
+            printf("%s%s (%s)", listed++ ? ", " : "Not measured: ", ost_effect_label(ost_variant_effect[v]),
+                   study->run[v].reason);
+    if (listed)
+        printf("\n");
+}
+
 /* Which effects the case has no use for, large rotation apart: one of its two variants always is off. */
 static void print_off(const OstEffectStudy *study)
 {
@@ -85,7 +98,7 @@ void ost_effect_study_print(const OstEffectStudy *study)
     printf("\n");
     print_run(study, "the case as it is", &study->base);
     for (int v = 0; v < OST_VARIANT_COUNT; v++)
-        if (study->run[v].state != OST_VARIANT_OFF)
+        if (study->run[v].state == OST_VARIANT_SOLVED || study->run[v].state == OST_VARIANT_FAILED)
             print_run(study, ost_variant_label[v], &study->run[v]);
     percent(study->c->relative_error, asked, sizeof asked);
     printf("\nChanges are relative to the case as it is. The accuracy asked for is %s (accuracy: relative_error).\n",
@@ -94,13 +107,14 @@ void ost_effect_study_print(const OstEffectStudy *study)
     print_list(study, "Missing, as putting it in changes the answer by more: ", 1, 1);
     print_list(study, "Could be left out, as it changes the answer by less: ", 0, 0);
     print_list(study, "Rightly left out, as it would change the answer by less: ", 0, 1);
+    print_unmeasured(study);
     print_off(study);
 }
 
 static json_t *run_json(const OstEffectStudy *study, const OstEffectRun *run)
 {
     json_t *item = json_pack("{s:s}", "state", state_word[run->state]);
-    if (run->state == OST_VARIANT_FAILED)
+    if (run->state == OST_VARIANT_FAILED || run->state == OST_VARIANT_UNMEASURED)
         json_object_set_new(item, "reason", ost_json_text(run->reason));
     if (run->state != OST_VARIANT_SOLVED)
         return item;

@@ -132,9 +132,15 @@ static OstStatus run_variant(OstEffectStudy *study, const OstScene *scene, OstVa
 {
     OstContext *ctx = study->ctx;
     const OstLogLevel level = ost_log_level(ctx);
+    const char *unmeasured = ost_variant_why_unmeasured(&scene->plan.effects, variant);
     OstEffectRun *run = &study->run[variant];
     OstVariantCase made;
     Pose pose = {0, NULL};
+    if (unmeasured) {
+        run->state = OST_VARIANT_UNMEASURED;
+        snprintf(run->reason, sizeof run->reason, "%s", unmeasured);
+        return OST_SUCCESS;
+    }
     OstStatus status = ost_variant_case(scene, variant, &made);
     if (level == OST_LOG_NORMAL) /* the warnings of the case itself have been said */
         ost_log_set_level(ctx, OST_LOG_QUIET);

@@ -213,8 +213,24 @@ int ost_variant_applies(const OstEffectStudy *study, const OstEffects *effects, 
     if (variant == OST_VARIANT_LINEAR)
         return study->base.large_rotation;
     if (variant == OST_VARIANT_LARGE_ROTATION)
-        return !study->base.large_rotation && !study->c->free_body;
+        return !study->base.large_rotation;
     return ost_effect_on(effects, ost_variant_effect[variant]);
+}
+
+const char *ost_variant_why_unmeasured(const OstEffects *effects, OstVariant variant)
+{
+    switch (variant) {
+    case OST_VARIANT_NO_RIGID_FACE:
+        return "its motion and its loads would go with it";
+    case OST_VARIANT_NO_TIE:
+        return "the parts would come apart";
+    case OST_VARIANT_NO_PERIODIC:
+        return "the cell's mean strain would go with them";
+    case OST_VARIANT_LARGE_ROTATION:
+        return ost_effects_why_linear(effects);
+    default:
+        return NULL;
+    }
 }
 
 OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariantCase *made)

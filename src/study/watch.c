@@ -250,6 +250,8 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
     watched->placed = 0;
     watched->exact = NULL;
     OST_TRY(evaluate(scene, result, watch, watched));
+    for (int i = 0; i < 3 && !watched->placed; i++)
+        watched->place[i] = NAN;
     if (result->interest.watch && result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY)
         watched->error = result->interest.error;
     if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || ost_watch_is_of_stress(watch)))

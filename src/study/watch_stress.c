@@ -4,6 +4,7 @@
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "element/element.h"
 #include "probe/sample.h"
@@ -133,7 +134,8 @@ static OstStatus share_place(const OstResult *result, Over *over)
     return OST_SUCCESS;
 }
 
-/* Adds a tet's stress at its vertices, with what the estimate adds to it, times the volume; the volume comes last. */
+/* Adds a tet's stress at its vertices, with what the estimate adds to it, times the volume; the volume comes
+ * last. Of owned nodes: all of their tets are here. */
 static void add_better(const OstResult *result, OstLocal tet, OstStressMeasure measure, double *sums)
 {
     const OstMesh *mesh = result->mesh;
@@ -154,43 +156,51 @@ static void add_better(const OstResult *result, OstLocal tet, OstStressMeasure m
     }
 }
 
-/* The least of the means at vertices, which many tets share: stresses of single ones scatter. */
-static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, double sign, int region, double *least)
+/* Each vertex's mean stress in a region, ghosts' too; 0 where the region is not. Collective. */
+static OstStatus mean_at_vertices(const OstResult *result, OstStressMeasure measure, int region, double *means)
 {
     const OstMesh *mesh = result->mesh;
-    double *sums = NULL;
-    OstStatus status = OST_NEW(result->ctx, &sums, 7 * (size_t)mesh->owned_nodes);
-    *least = INFINITY;
-    for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
+    for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
         if (mesh->tet_region[tet] == region)
-            add_better(result, tet, measure_of(watch), sums);
-    for (OstLocal tet = 0; tet < mesh->tet_count && status == OST_SUCCESS; tet++)
-        for (int a = 0; a < 4 && mesh->tet_region[tet] == region && status == OST_SUCCESS; a++) {
-            const OstLocal node = ost_mesh_nodes_of(mesh, tet)[a];
-            double stress[6], value;
-            if (node >= mesh->owned_nodes || !(sums[7 * (size_t)node + 6] > 0.0))
-                continue;
-            for (size_t p = 0; p < 6; p++)
-                stress[p] = sums[7 * (size_t)node + p] / sums[7 * (size_t)node + 6];
-            status = value_at(result, watch, tet, stress, &value);
+            add_better(result, tet, measure, means);
+    for (size_t n = 0; n < 7 * (size_t)mesh->owned_nodes; n++)
+        if (n % 7 < 6 && means[n - n % 7 + 6] > 0.0)
+            means[n] /= means[n - n % 7 + 6];
+    return ost_halo_import(mesh->halo, 7 * sizeof *means, means);
+}
+
+/* The least of the means at vertices, which many tets share: stresses of single ones scatter. Of the owned tets:
+ * ghosts have no turned axes. */
+static OstStatus least_of_means(const OstResult *result, const OstWatch *watch, double sign, int region,
+                                const double *means, double *least)
+{
+    const OstMesh *mesh = result->mesh;
+    *least = INFINITY;
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
+        for (int a = 0; a < 4 && mesh->tet_region[tet] == region; a++) {
+            double value;
+            OST_TRY(value_at(result, watch, tet, means + 7 * (size_t)ost_mesh_nodes_of(mesh, tet)[a], &value));
             *least = fmin(*least, sign * value);
         }
-    OST_FREE(sums);
-    return status;
+    return OST_SUCCESS;
 }
 
 /* By how much the exact extreme is larger: that of stresses with what the estimate adds to them. */
 static OstStatus find_beyond(const OstResult *result, const OstWatch *watch, double sign, const Over *over,
                              double *error)
 {
-    double least;
+    OstContext *ctx = result->ctx;
+    double *means = NULL, least = NAN;
     *error = NAN;
     if (!result->node_stress_surplus)
         return OST_SUCCESS;
-    OST_TRY(ost_agree(result->ctx, least_of_means(result, watch, sign, over->region, &least)));
-    OST_TRY(ost_min(result->ctx, 1, &least));
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, &means, 7 * (size_t)result->mesh->node_count));
+    OST_THEN(ost_agree(ctx, mean_at_vertices(result, measure_of(watch), over->region, means)));
+    OST_THEN(ost_agree(ctx, least_of_means(result, watch, sign, over->region, means, &least)));
+    OST_THEN(ost_min(ctx, 1, &least));
+    OST_FREE(means);
     *error = sign * (least - over->best);
-    return OST_SUCCESS;
+    return status;
 }
 
 static OstStatus of_region(const OstResult *result, const OstWatch *watch, OstWatched *watched)

@@ -55,6 +55,9 @@ CASES = {
                              FIXED + force("{box: {min: [1, 0, 0], max: [1, 1, 1]}}"), ["several materials", "point force"]),
     "near incompressibility": ("element: {order: 2}\nmesh: {file: two.veg}\n" + FIXED + force("{vertices: [5]}"),
                                ["mixed form"]),
+    "a moved coupling": (BLOCK + STEEL + HELD + "large_rotation: off\nloads: [{on: {boundary: xmax}, distributing: "
+                         "{at: [2, 0.5, 0.5], rotation: [0, 0.1, 0]}}, {on: {boundary: zmax}, pressure: 1}]\n",
+                         ["moved coupling", "surface load"]),
     "multigrid": ("element: {order: 2}\n" + BLOCK + STEEL + HELD + force("{boundary: xmax}") + "solver: {method: metric}\n",
                   ["linear space", "surface load"]),
 }

@@ -108,3 +108,28 @@ watch:
     steel, rubber = report["watched"]["steel"]["value"], report["watched"]["rubber"]["value"]
     check(abs(steel / rubber - 1) < 0.01, f"contrast {contrast:g}: {report['watched']}")
     check(report["checks"]["force_error"] < 0.01, report["checks"])
+
+# Extremes along material axes that have turned with the tets: their errors do not depend on how the body is divided.
+TURNED = """mesh: {block: {size: [4, 1, 1], divisions: [6, 2, 2]}}
+element: {order: 2}
+materials:
+  - region: all
+    youngs_modulus: [1000, 100, 50]
+    poissons_ratio: 0.3
+    strengths: {tension: 30}
+    axes: {rotation: {axis: [1, 1, 0], degrees: 30}}
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: zmax}, pressure: 1}]
+large_rotation: on
+watch:
+  along: {stress: {region: all}, component: 11, take: largest}
+  breaks: {load_factor: {region: all}}
+"""
+first = None
+for ranks in 1, 3:
+    done, report, _ = solve(TURNED, ranks=ranks, folder=folder)
+    check(done.exit_code == 0, done.errors)
+    errors = [watched["error"] for watched in report["watched"].values()]
+    first = first or errors
+    check(all(abs(a - b) < 0.02 * abs(a) for a, b in zip(first, errors, strict=True)),
+          f"{ranks} ranks: {errors}, on one rank {first}")

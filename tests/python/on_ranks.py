@@ -47,6 +47,7 @@ def a_uniform_stretch_has_the_formula(folder):
     close(result.largest_displacement_at[0], 4.0)
     if result.context.rank == 0:  # the others need not read it
         watched = result.watch["end"]
+        assert not watched.placed and np.isnan(watched.place).all()
         close(watched.value, 0.008, 1e-6)
         assert watched.expected == 0.008
     assert result.iterations == result.solver.iterations > 0
@@ -261,6 +262,7 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
     np.add.at(product, row, np.einsum("eij,ej->ei", k.value, u[k.column]))
     assert np.abs(product - inside[k.node[:k.rows]]).max(initial=0) < 1e-10 * 0.005
     assert problem.mesh.quadratic().global_nodes > mesh.global_nodes and mesh.refined().global_tets == 8 * len(tets)
+    raises(ValueError, "tets: whole numbers are wanted", orthostat.MeshArrays, points, tets + 0.5)
     raises(ValueError, "a tet has 4 or 10 nodes", orthostat.MeshArrays, points, tets[:, :3])
     raises(orthostat.InvalidInput, "tet 1", orthostat.Mesh, orthostat.MeshArrays(points, tets[:, [1, 0, 2, 3]]))
 

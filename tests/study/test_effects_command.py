@@ -114,6 +114,34 @@ check(two.exit_code == 0, two.errors)
 two = {variant["variant"]: variant for variant in json.loads(two.output)["variants"]}["one material for several"]
 close(two["change"]["energy"], 1.0, 1e-6, "energy of two tets that swell alike")
 
+# What cannot be left out, or put in, is said to be not measured; a moved coupling is no moment.
+LINKED = """mesh: {block: {size: [4, 1, 1], divisions: [4, 1, 1]}}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}CONSTRAINT]
+loads: [{on: {boundary: zmax}, pressure: 0.001}LOAD]
+large_rotation: off
+"""
+TURN = "{at: [4, 0.5, 0.5], rotation: [0, 1, 0]}"
+ALONE = "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly"
+for constraint, load, effect, reason in (
+        (f", {{on: {{boundary: xmax}}, rigid: {TURN}}}", "", "rigid face", "its motion and its loads would go with it"),
+        ("", f", {{on: {{boundary: xmax}}, distributing: {TURN}}}", "moved coupling", None)):
+    with open(os.path.join(folder, "linked.yaml"), "w", encoding="utf-8") as stream:
+        stream.write(LINKED.replace("CONSTRAINT", constraint).replace("LOAD", load))
+    linked = run("effects", "linked.yaml", "--json", "linked.json", folder=folder)
+    check(linked.exit_code == 0, linked.errors)
+    with open(os.path.join(folder, "linked.json"), encoding="utf-8") as stream:
+        found = {variant["variant"]: variant for variant in json.load(stream)["variants"]}
+    large = found["large rotation for linear theory"]
+    check(large["state"] == "not measured" and large["reason"] == ALONE and f"large rotation ({ALONE})" in linked.output and
+          "Rightly" not in linked.output, f"{effect}: {linked.output}")
+    check(found["without moments"]["state"] == "off", f"{effect}: {found['without moments']}")
+    of_effect = next(variant for variant in found.values() if variant["effect"] == effect)
+    if reason:
+        check(of_effect["state"] == "not measured" and of_effect["reason"] == reason, f"{of_effect}")
+    else:
+        check(of_effect["needed"] and of_effect["change"]["pose"] > 0.9, f"{of_effect}")
+
 spoken = run("effects", "bar.yaml", "--picture", "bar.png", folder=folder)
 check(spoken.exit_code == 0, spoken.errors)
 lines = {line.split(":")[0]: line for line in spoken.output.splitlines()}
