@@ -258,11 +258,43 @@ static double whole_square(const OstProblem *problem, double energy, double squa
     return is_moved_only ? fmax(2.0 * energy - square, square) : 2.0 * energy + square;
 }
 
+/* An answer has no smaller norm than this share of its scale: else an error of the equations is compared with itself
+ * where an eigenstrain is free, or where incompressible parts bear the loads and nothing moves. */
+static const double least_of_scale = 1e-4;
+
+/* The scale's square: of an eigenstrain, the energy norm that it has where nothing gives way to it; of a mixed form,
+ * what its pressure is worth. 0 without either. Overwrites steps.u. */
+static OstStatus find_scale(Search *search, double t, double *square)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstMesh *mesh = problem->mesh;
+    const OstPressureSpace *space = problem->pressures;
+    double held = 0.0, pressed = 0.0;
+    if (ost_field_is_eigenstrained(problem->field)) {
+        OstMaterialField field;
+        OstProblem at_rest;
+        ost_problem_at_pressure(problem, NULL, &field, &at_rest);
+        memset(search->steps.u, 0, 3 * (size_t)mesh->node_count * sizeof *search->steps.u);
+        OST_TRY(ost_problem_energy(&at_rest, t, search->steps.u, &held));
+    }
+    for (size_t i = 0; space && problem->field->pressure && i < 4 * (size_t)mesh->owned_tets; i++) {
+        const OstLocal tet = (OstLocal)(i / 4);
+        const double p = space->of_tet[i] >= 0 ? problem->field->pressure[i] : 0.0;
+        if (p != 0.0)
+            pressed += 0.25 * fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet))) * p * p *
+                       ost_field_giving_way(problem->field, mesh->tet_region[tet]);
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &pressed));
+    *square = 2.0 * held + pressed;
+    return OST_SUCCESS;
+}
+
 /* `square` is in the case's units. */
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
 {
     const OstProblem *problem = search->estimate->problem;
-    double most[2] = {0.0}, energy = 0.0;
+    double most[2] = {0.0}, energy = 0.0, scale;
+    OST_TRY(find_scale(search, t, &scale));
     OST_TRY(ost_search_displacement(search));
     for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
         double better[3];
@@ -280,11 +312,13 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
         energy = search->energy;
         OST_TRY(ost_sum(problem->ctx, 1, &energy));
     }
+    const double whole = whole_square(problem, energy, square);
+    const double least = least_of_scale * least_of_scale * scale;
     found->energy_norm = sqrt(square);
     found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
-    /* Where an eigenstrain is free the elastic energy is rounding, and e beside u tells so. */
-    found->relative =
-        square > 0.0 && found->displacement > rounding ? sqrt(square / whole_square(problem, energy, square)) : 0.0;
+    found->relative = square > 0.0 && found->displacement > rounding ? sqrt(square / fmax(whole, least)) : 0.0;
+    if (problem->pressures && whole < least) /* nothing moves */
+        found->displacement *= sqrt(whole / least);
     found->known = 1;
     return OST_SUCCESS;
 }
