@@ -171,8 +171,9 @@ struct OstAdjoint {
     size_t nodes;
     OstEnriched e; /* the surplus of z, lengthened, over `size` */
     double size;
-    double *pressure; /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
-    double *z;        /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *pressure;  /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
+    OstOrders *orders; /* owned_tets; NULL where orders above the next are not known */
+    double *z;         /* 3 × owned_nodes: what the solve adds to the given motion */
 };
 
 void ost_adjoint_destroy(OstAdjoint **adjoint)
@@ -183,6 +184,7 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
     OST_FREE((*adjoint)->e.functions);
     OST_FREE((*adjoint)->z);
     OST_FREE((*adjoint)->pressure);
+    OST_FREE((*adjoint)->orders);
     OST_FREE(*adjoint);
 }
 
@@ -195,15 +197,34 @@ typedef struct Wanted {
     double *tet_share; /* owned_tets: each tet's share of the squared error of z is found too; or NULL */
 } Wanted;
 
-/* Steps for the surplus of z. */
-static OstStatus find_surplus(Search *search, const Wanted *wanted)
+/* What orders above the next take to know of z: of_second, then of_third, of tets. */
+static OstStatus keep_orders(const Search *search, const double *of_second, const double *of_third, OstAdjoint *adjoint)
 {
-    double square;
+    const OstProblem *problem = search->estimate->problem;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &adjoint->orders, problem->mesh->owned_tets)));
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        adjoint->orders[tet] =
+            (OstOrders){(float)fmax(of_third[tet], 0.0), (float)ost_orders_share(of_third[tet], of_second[tet])};
+    return OST_SUCCESS;
+}
+
+/* Steps for the surplus of z; of_second: what the second order has in z's tets, or NULL: that is not known. */
+static OstStatus find_surplus(Search *search, const Wanted *wanted, const double *of_second, OstAdjoint *adjoint)
+{
+    const OstProblem *problem = search->estimate->problem;
+    double square, *of_third = NULL;
     OST_TRY(ost_search_iterate(search, 0.0, &square));
-    if (!wanted->tet_share || search->steps.failed)
+    if (!(wanted->tet_share || of_second) || search->steps.failed)
         return OST_SUCCESS;
-    OST_TRY(ost_search_displacement(search));
-    return ost_search_share(search, ost_search_true_square(search, square), wanted->tet_share);
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_third, problem->mesh->owned_tets)));
+    OstStatus status = ost_search_displacement(search);
+    OST_THEN(ost_search_share(search, ost_search_true_square(search, square), of_third));
+    if (of_second)
+        OST_THEN(keep_orders(search, of_second, of_third, adjoint));
+    if (wanted->tet_share)
+        memcpy(wanted->tet_share, of_third, (size_t)problem->mesh->owned_tets * sizeof *of_third);
+    OST_FREE(of_third);
+    return status;
 }
 
 /* Minus what a given motion adds to the second equation of a mixed form, where rotations are large. */
@@ -331,7 +352,7 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     field.tet_eigenstrain = interest->strain;
     const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR};
     OST_TRY_DONE(mixed_adjoint_residual(search, &of));
-    OST_TRY_DONE(find_surplus(search, wanted));
+    OST_TRY_DONE(find_surplus(search, wanted, NULL, adjoint));
     if (!search->steps.failed)
         status = ost_pressure_error(search, &of, adjoint->pressure);
 done:
@@ -340,12 +361,39 @@ done:
     return status;
 }
 
+/* What the second order has of z, which is steps.u in units of steps.size, and stays. */
+static OstStatus find_second(Search *search, double *of_second)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const size_t numbers = 3 * (size_t)problem->mesh->node_count;
+    const double square = search->steps.size * search->steps.size;
+    double *z = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &z, numbers)));
+    memcpy(z, search->steps.u, numbers * sizeof *z);
+    ost_orders_second(search, z, of_second);
+    for (OstLocal tet = 0; tet < problem->mesh->owned_tets; tet++)
+        of_second[tet] *= square;
+    OST_FREE(z);
+    return OST_SUCCESS;
+}
+
 static OstStatus find_plain(Search *search, const Wanted *wanted, OstAdjoint *adjoint)
 {
+    const OstProblem *problem = search->estimate->problem;
+    double *of_second = NULL;
+    OstStatus status = OST_SUCCESS;
     OST_TRY(solve_adjoint(search, wanted->interest, wanted->t, wanted->u, wanted->share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     OST_TRY(adjoint_residual(search, wanted->interest));
-    return find_surplus(search, wanted);
+    /* The z of a displacement is that of a force at a vertex, which has no energy: its orders tell nothing. */
+    if (wanted->interest->moved && ost_orders_are_known(search->estimate)) {
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_second, problem->mesh->owned_tets)));
+        OST_TRY_DONE(find_second(search, of_second));
+    }
+    status = find_surplus(search, wanted, of_second, adjoint);
+done:
+    OST_FREE(of_second);
+    return status;
 }
 
 static OstStatus find_adjoint(Search *search, const Wanted *wanted, OstAdjoint *adjoint)
@@ -388,14 +436,18 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
     return create(estimate, solver, &(Wanted){interest, t, u, share, NULL}, adjoint);
 }
 
-OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error)
+OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u,
+                            const double *tet_error, double *error)
 {
     Search search = {0};
+    double of_orders = 1.0;
     OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, NULL, &search));
     OST_THEN(ost_search_residual(&search, t, u));
     OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
-    *error *= status == OST_SUCCESS ? -adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
+    if (adjoint->orders && tet_error)
+        OST_THEN(ost_orders_of_product(&search, u, tet_error, adjoint->orders, &of_orders));
+    *error *= status == OST_SUCCESS ? -of_orders * adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
     ost_steps_close(&search.steps);
     if (adjoint->pressure) {
         double of_pressure = 0.0;
@@ -422,7 +474,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets)));
     OstStatus status = create(estimate, solver, &(Wanted){interest, t, u, 0.0, of_adjoint}, &adjoint);
     if (adjoint) {
-        OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, error));
+        OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, tet_share, error));
         if (!interest->moved) /* unlike a reaction, which is the work of u on z, on which the exact error does none */
             *error = -*error;
         OST_THEN(share_interest(problem, of_adjoint, *error, tet_share));

@@ -28,12 +28,6 @@ static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to
 /* What two steps may add, where errors of other loads gave a start, to be the last. */
 static const double little_new = 0.03;
 
-/* Near corners and edges, what an order of elements adds to the energy falls as a power of the order. Where order three
- * adds a share r of what order two has, all orders from three on then add 1 + 4.4 r times as much as three: 1.23, 1.81
- * and 2.4 for powers of 4, 2 and 1, whose r are .053, .18 and .33. A smooth solution has a small r. Nearly
- * incompressible materials have a large one everywhere. */
-static const double to_come_of_orders = 4.4, largest_share = 0.3;
-
 enum { least_steps = 3, most_steps = 24 };
 
 void ost_estimate_destroy(OstEstimate **estimate)
@@ -258,11 +252,43 @@ static double whole_square(const OstProblem *problem, double energy, double squa
     return is_moved_only ? fmax(2.0 * energy - square, square) : 2.0 * energy + square;
 }
 
+/* An answer has no smaller norm than this share of its scale: else an error of the equations is compared with itself
+ * where an eigenstrain is free, or where incompressible parts bear the loads and nothing moves. */
+static const double least_of_scale = 1e-4;
+
+/* The scale's square: of an eigenstrain, the energy norm that it has where nothing gives way to it; of a mixed form,
+ * what its pressure is worth. 0 without either. Overwrites steps.u. */
+static OstStatus find_scale(Search *search, double t, double *square)
+{
+    const OstProblem *problem = search->estimate->problem;
+    const OstMesh *mesh = problem->mesh;
+    const OstPressureSpace *space = problem->pressures;
+    double held = 0.0, pressed = 0.0;
+    if (ost_field_is_eigenstrained(problem->field)) {
+        OstMaterialField field;
+        OstProblem at_rest;
+        ost_problem_at_pressure(problem, NULL, &field, &at_rest);
+        memset(search->steps.u, 0, 3 * (size_t)mesh->node_count * sizeof *search->steps.u);
+        OST_TRY(ost_problem_energy(&at_rest, t, search->steps.u, &held));
+    }
+    for (size_t i = 0; space && problem->field->pressure && i < 4 * (size_t)mesh->owned_tets; i++) {
+        const OstLocal tet = (OstLocal)(i / 4);
+        const double p = space->of_tet[i] >= 0 ? problem->field->pressure[i] : 0.0;
+        if (p != 0.0)
+            pressed += 0.25 * fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet))) * p * p *
+                       ost_field_giving_way(problem->field, mesh->tet_region[tet]);
+    }
+    OST_TRY(ost_sum(problem->ctx, 1, &pressed));
+    *square = 2.0 * held + pressed;
+    return OST_SUCCESS;
+}
+
 /* `square` is in the case's units. */
 static OstStatus compare(Search *search, double t, const double *u, double square, OstAnswerError *found)
 {
     const OstProblem *problem = search->estimate->problem;
-    double most[2] = {0.0}, energy = 0.0;
+    double most[2] = {0.0}, energy = 0.0, scale;
+    OST_TRY(find_scale(search, t, &scale));
     OST_TRY(ost_search_displacement(search));
     for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
         double better[3];
@@ -280,11 +306,13 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
         energy = search->energy;
         OST_TRY(ost_sum(problem->ctx, 1, &energy));
     }
+    const double whole = whole_square(problem, energy, square);
+    const double least = least_of_scale * least_of_scale * scale;
     found->energy_norm = sqrt(square);
     found->displacement = most[1] > 0.0 ? most[0] / most[1] : 0.0;
-    /* Where an eigenstrain is free the elastic energy is rounding, and e beside u tells so. */
-    found->relative =
-        square > 0.0 && found->displacement > rounding ? sqrt(square / whole_square(problem, energy, square)) : 0.0;
+    found->relative = square > 0.0 && found->displacement > rounding ? sqrt(square / fmax(whole, least)) : 0.0;
+    if (problem->pressures && whole < least) /* nothing moves */
+        found->displacement *= sqrt(whole / least);
     found->known = 1;
     return OST_SUCCESS;
 }
@@ -303,44 +331,6 @@ OstStatus ost_search_share(Search *search, double square, double *tet_error)
     return OST_SUCCESS;
 }
 
-/* u less its linear part in each tet: what mid-edge nodes are off the middle of their edge's ends. */
-static void take_second_order(const OstMesh *mesh, const double *u, double *bent)
-{
-    memset(bent, 0, 3 * (size_t)mesh->node_count * sizeof *bent);
-    for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
-        const OstLocal *node = ost_mesh_nodes_of(mesh, tet);
-        for (int e = 0; e < 6; e++) {
-            const double *a = u + 3 * node[ost_tet_edge[e][0]], *b = u + 3 * node[ost_tet_edge[e][1]];
-            for (int i = 0; i < 3; i++)
-                bent[3 * node[4 + e] + i] = u[3 * node[4 + e] + i] - 0.5 * (a[i] + b[i]);
-        }
-    }
-}
-
-/* Adds what orders above the third would find to each tet's share of |e|², and to `square`, the sum. Overwrites steps.u
- * and steps.p. */
-static OstStatus add_higher_orders(Search *search, const double *u, double *tet_error, double *square)
-{
-    const OstEstimate *estimate = search->estimate;
-    const OstMesh *mesh = estimate->problem->mesh;
-    double *of_second = NULL;
-    if (!estimate->knows_orders || estimate->problem->pressures)
-        return OST_SUCCESS;
-    OST_TRY(ost_agree(estimate->problem->ctx, OST_NEW(estimate->problem->ctx, &of_second, mesh->owned_tets)));
-    take_second_order(mesh, u, search->steps.u);
-    memset(search->steps.p.functions, 0, OST_PER_FUNCTION * search->steps.functions * sizeof(float));
-    ost_operator_energy(&estimate->stiffness, search->steps.u, search->steps.p.functions, of_second);
-    *square = 0.0;
-    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
-        const double second = estimate->stiffness.unit * of_second[tet];
-        const double share = second > 0.0 ? fmin(tet_error[tet] / second, largest_share) : 0.0;
-        tet_error[tet] *= 1.0 + to_come_of_orders * share;
-        *square += tet_error[tet];
-    }
-    OST_FREE(of_second);
-    return ost_sum(estimate->problem->ctx, 1, square);
-}
-
 /* The surplus at the nodes, lengthened by what was extrapolated of it: its own work on the residual, with what orders
  * that are higher still have. */
 static OstStatus hand_out(Search *search, double *surplus)
@@ -353,7 +343,8 @@ static OstStatus hand_out(Search *search, double *surplus)
     return ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *surplus, surplus));
 }
 
-/* What e adds to displacements and stresses. */
+/* What e adds to displacements and stresses. Means over tets are of the whole body, as displacements are, and
+ * lengthened by the higher orders too; stresses at places are not. */
 static OstStatus hand_out_all(Search *search, const OstProblem *state, const OstSurplus *surplus)
 {
     const OstMesh *mesh = state->mesh;
@@ -364,9 +355,13 @@ static OstStatus hand_out_all(Search *search, const OstProblem *state, const Ost
     if (surplus->node_stress)
         memset(surplus->node_stress, 0,
                6 * (size_t)mesh->nodes_per_tet * (size_t)mesh->tet_count * sizeof *surplus->node_stress);
-    if (surplus->stress || surplus->node_stress)
-        ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions,
-                                search->longer * search->steps.size, surplus->node_stress, surplus->stress);
+    const double length = search->longer * search->steps.size;
+    if (surplus->stress)
+        ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions, search->higher * length, NULL,
+                                surplus->stress);
+    if (surplus->node_stress)
+        ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions, length, surplus->node_stress,
+                                NULL);
     return surplus->displacement ? hand_out(search, surplus->displacement) : OST_SUCCESS;
 }
 
@@ -417,7 +412,7 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         if (surplus->tet_error) {
             OST_THEN(ost_search_share(&search, square, surplus->tet_error));
             const double of_steps = square;
-            OST_THEN(add_higher_orders(&search, u, surplus->tet_error, &square));
+            OST_THEN(ost_orders_add(&search, u, surplus->tet_error, &square));
             search.higher = of_steps > 0.0 ? square / of_steps : 1.0;
         }
         OST_THEN(compare(&search, t, u, square, found));

@@ -86,8 +86,9 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
 void ost_adjoint_destroy(OstAdjoint **adjoint);
 
 /* Collective. By how much the exact reaction is larger than that of u, taken by its adjoint problem; by how much a mean
- * stress is smaller. */
-OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u, double *error);
+ * stress is smaller. `tet_error`: owned_tets, of u, as ost_estimate_find has it. */
+OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u,
+                            const double *tet_error, double *error);
 
 /* Local. What z has beside the given motion, 3 × owned_nodes; 0 where that is. */
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint);

@@ -64,6 +64,32 @@ OstStatus ost_search_displacement(Search *search);
 /* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u. */
 OstStatus ost_search_share(Search *search, double square, double *tet_error);
 
+/* Of orders above the next (accuracy/orders.c): known of quadratic tets, but of nearly incompressible ones. */
+int ost_orders_are_known(const OstEstimate *estimate);
+
+/* Local. What the second order adds to a displacement's (3 × node_count, ghosts included) energy in each tet.
+ * Overwrites steps.u and the functions of steps.p. */
+void ost_orders_second(Search *search, const double *u, double *of_second);
+
+/* What order three adds over what the second does: 0.3 at most. */
+double ost_orders_share(double of_third, double of_second);
+
+/* Collective. Adds what orders above the third would find to each tet's share of |e|², and to `square`, the sum.
+ * Overwrites as above. */
+OstStatus ost_orders_add(Search *search, const double *u, double *tet_error, double *square);
+
+/* Of a tet of an adjoint problem: the third order's part of |e|² of z, and its share. */
+typedef struct OstOrders {
+    float of_third, share;
+} OstOrders;
+
+/* Collective. How many times as large the product of the errors of u and of an adjoint problem is with the orders that
+ * are higher still: where both have a share of their own, r, that of the product is the root of both, so that the
+ * product of an error with itself is its square. tet_error: each tet's share of |e|² of u, with those orders.
+ * Overwrites as above. */
+OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
+                                double *factor);
+
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);
 

@@ -19,13 +19,29 @@ void ost_solve_stop_close(OstSolveStop *stop)
     OST_FREE(stop->displacement);
 }
 
+/* Errors of the equations are a share of what moves. Where an eigenstrain is free, or an incompressible part bears the
+ * loads, what has an energy of its own may be far less: there the answer's norm is to be this often the equations'
+ * error. */
+static const double clear_of_error = 10.0;
+
+static int is_clear(const OstSolveStop *stop, double size, double error)
+{
+    const OstProblem *problem = stop->problem;
+    const double of_mesh = stop->answer->energy_norm;
+    return !(problem->pressures || ost_field_is_eigenstrained(problem->field)) ||
+           sqrt(fmax(size * size - of_mesh * of_mesh, 0.0)) >= clear_of_error * error;
+}
+
 /* The error of the equations to go on to; 0 where the discretisation error is not known. */
 static double next_error(OstSolveStop *stop, double error)
 {
-    const OstAnswerError *answer = stop->answer;
+    OstAnswerError *answer = stop->answer;
     if (!answer->known || !(answer->relative > 0.0))
         return 0.0;
     const double size = answer->energy_norm / answer->relative;
+    answer->known = is_clear(stop, size, error);
+    if (!answer->known)
+        return 0.0;
     stop->settled = error <= small_share * answer->energy_norm;
     return fmin((stop->settled ? stop->share : small_share) * answer->energy_norm, largest_error * size);
 }

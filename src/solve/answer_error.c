@@ -200,7 +200,7 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
     OST_TRY(ost_mean_stresses_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                                    shares && !analysis->company ? kept : NULL, result->reactions));
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
-                              result->answer.relative, shares ? kept : NULL, result->reactions);
+                              result->answer.relative, result->tet_error, shares ? kept : NULL, result->reactions);
 }
 
 static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
@@ -272,7 +272,11 @@ OstStatus ost_analysis_find_reactions(OstAnalysis *analysis, OstResult *result)
     ost_ledger_enter(analysis->ctx, OST_EFFECT_ERROR_ESTIMATE);
     OstStatus status = ost_estimate_create(&state, &estimate);
     OST_THEN(move_for_adjoints(analysis, result->t, result));
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        result->tet_error[tet] *= result->tet_error[tet];
     OST_THEN(estimate_reactions(analysis, estimate, result->t, result));
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        result->tet_error[tet] = sqrt(result->tet_error[tet]);
     ost_estimate_destroy(&estimate);
     ost_ledger_leave(analysis->ctx);
     return status;

@@ -10,6 +10,7 @@
 #include "core/small.h"
 #include "mesh/nearest.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -326,6 +327,20 @@ static OstStatus find_change(const OstScene *scene, const OstResult *result, con
     return OST_SUCCESS;
 }
 
+/* A displacement that is less than places are rounded by turns nothing. */
+static OstStatus find_least_change(const OstResult *result, const OstWatch *watch, double *least)
+{
+    double low[3], high[3], size[3];
+    *least = 0.0;
+    if (watch->kind != OST_WATCH_DISPLACEMENT)
+        return OST_SUCCESS;
+    OST_TRY(ost_mesh_bounds(result->mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        size[i] = high[i] - low[i];
+    *least = DBL_EPSILON * ost_norm3(size);
+    return OST_SUCCESS;
+}
+
 /* Linear theory is off by a share of the largest displacement: of a small component beside a large one, as the
  * shortening of a beam that bends, or of the moment of a column that leans, that may be all. */
 static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *result, const OstWatch *watch,
@@ -334,7 +349,7 @@ static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *r
     const OstNewtonReport *newton = &result->newton;
     const int may_differ =
         watch->kind == OST_WATCH_DISPLACEMENT || (watch->kind == OST_WATCH_REACTION && result->left_out_reaction);
-    double change = newton->linear_error * watched->scale;
+    double change = newton->linear_error * watched->scale, least;
     if (!newton->judged || newton->used || !may_differ)
         return OST_SUCCESS;
     if (!result->left_out) {
@@ -346,7 +361,8 @@ static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *r
         return OST_SUCCESS;
     }
     OST_TRY(find_change(scene, result, watch, &change));
-    if (fabs(change) > fmax(newton->accuracy * fabs(watched->value), worth_words * watched->scale))
+    OST_TRY(find_least_change(result, watch, &least));
+    if (fabs(change) > fmax(fmax(newton->accuracy * fabs(watched->value), worth_words * watched->scale), least))
         ost_warn(
             result->ctx,
             "'%s' is %.4g by linear theory, and about %.4g%s once the body has turned; large_rotation: on computes "

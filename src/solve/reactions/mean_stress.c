@@ -60,7 +60,7 @@ OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimat
             status = create(problem, estimate, solver, t, u, &c->watches[w], &own);
         adjoint = adjoint ? adjoint : own;
         if (adjoint)
-            OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, &found[w].error));
+            OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, NULL, &found[w].error));
         found[w].error = -found[w].error;
         found[w].known = adjoint && status == OST_SUCCESS;
         if (own && kept && kept->mean_count < OST_MOST_REACTIONS) {

@@ -193,6 +193,7 @@ typedef struct Wanted {
     OstSolver *solver;
     double t;
     const double *u;
+    const double *tet_error;
     double share;        /* its equations' error, of z in the norm of the energy */
     OstAdjoint *adjoint; /* found; NULL: it has no answer */
     int is_kept;         /* by those of other loads; else it is the caller's */
@@ -254,7 +255,8 @@ static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedR
     if (wanted->adjoint) {
         if (!problem->pressures) /* a mixed form is solved to its residual */
             OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), beside, &found->missing));
-        OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, &found->error));
+        OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, wanted->tet_error,
+                                   &found->error));
         found->known = status == OST_SUCCESS;
     }
     if (!wanted->is_kept)
@@ -263,7 +265,8 @@ static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedR
 }
 
 OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
-                             const double *u, double relative, OstReactions *kept, OstWatchedReaction *found)
+                             const double *u, double relative, const double *tet_error, OstReactions *kept,
+                             OstWatchedReaction *found)
 {
     const OstCase *c = problem->scene->c;
     const double share = fmin(fmax(share_of_error * relative, least_share), most_share);
@@ -280,7 +283,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
         if (status != OST_SUCCESS || found[w].known || !ost_reactions_have_adjoint(problem))
             continue;
         status = ost_interest_create(problem, search.watch, t, u, &search.interest);
-        Wanted wanted = {&search, estimate, solver, t, u, share, NULL, 0};
+        Wanted wanted = {&search, estimate, solver, t, u, tet_error, share, NULL, 0};
         OST_THEN(find_by_adjoint(&wanted, kept, &found[w]));
         ost_interest_clear(&search.interest);
     }

@@ -45,9 +45,10 @@ OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimat
                                  const double *u, OstReactions *kept, OstWatchedReaction *found);
 
 /* Collective. What is to be added to each watched reaction, and its error: found (one for each quantity watched) is
- * filled for those that are known. `relative`: the error of u in the norm of the energy. What is found for this load is
- * kept for the next, unless `kept` is NULL. */
+ * filled for those that are known. `relative`: the error of u in the norm of the energy, and tet_error each tet's share
+ * of its square. What is found for this load is kept for the next, unless `kept` is NULL. */
 OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
-                             const double *u, double relative, OstReactions *kept, OstWatchedReaction *found);
+                             const double *u, double relative, const double *tet_error, OstReactions *kept,
+                             OstWatchedReaction *found);
 
 #endif
