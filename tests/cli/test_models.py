@@ -138,3 +138,28 @@ check(told(said) == [("constraints", "{on: {boundary: rbe2-17}, rigid: [0.5, 0.5
 run("mesh", "model.bdf", "--json", "model.json", folder=folder)
 check([(b["name"], b["count"]) for b in read_json(folder, "model.json")["boundaries"]] == [("rbe2-17", 2), ("rbe3-18", 2)],
       "the nodes of rigid elements")
+
+# A surface of shells has both of their sides where none is named; the free surface of solids is not made, and not named as a boundary.
+said = warnings("free.inp", """*NODE
+1,0,0,0
+2,1,0,0
+3,0,1,0
+4,0,0,1
+5,1,1,1
+*ELEMENT, TYPE=C3D4, ELSET=A
+1,1,2,3,4
+*ELEMENT, TYPE=C3D4, ELSET=B
+2,2,5,3,4
+*ELEMENT, TYPE=S3, ELSET=SKIN
+3,1,3,2
+*SURFACE, TYPE=ELEMENT, NAME=FREE
+A,
+*SURFACE, TYPE=ELEMENT, NAME=SHELLS
+SKIN
+*TIE, NAME=t
+FREE, SHELLS
+""")
+check("1 line of *SURFACE names no face" in said and told(said) == [
+    ("constraints", "{on: {boundary: ...}, tied_to: {boundary: SHELLS}}")], said)
+done = run("mesh", "free.inp", folder=folder)
+check(re.search(r"SHELLS +1 faces +area 0.5", done.output), done.output)

@@ -430,9 +430,10 @@ static void choose_regions(OstInp *inp)
         inp->cells.set[s].is_region = inp->cells.set[s].is_region == 2;
     if (inp->left_out > 0)
         ost_warn(inp->ctx,
-                 "%s: %" PRId64 " lines of *SURFACE name no face (S1 to S6, SPOS or SNEG) of solids or shells, and are "
-                 "left out",
-                 inp->cells.path, inp->left_out);
+                 "%s: %" PRId64 " line%s of *SURFACE name%s no face (S1 to S6, SPOS or SNEG) of solids or shells, and "
+                 "%s left out; write the faces, also of a free surface, as CAE does",
+                 inp->cells.path, inp->left_out, inp->left_out == 1 ? "" : "s", inp->left_out == 1 ? "s" : "",
+                 inp->left_out == 1 ? "is" : "are");
 }
 
 static OstStatus read_file(OstInp *inp, const char *path, OstMeshChunk **chunk)

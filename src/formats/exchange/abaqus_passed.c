@@ -143,15 +143,17 @@ OstStatus ost_inp_oriented(OstInp *inp, const OstInpKeyword *keyword)
 
 /* --- in the end --- */
 
-/* The boundary's name, which has the instance's before it where there are several. */
+/* The boundary's name, which has the instance's before it where there are several; "..." if nothing was read of it. */
 static const char *boundary_name(const OstInp *inp, const char *word, char text[OST_YAML_NAME])
 {
     static const OstSetKind kinds[] = {OST_SET_OF_FACES, OST_SET_OF_CELLS, OST_SET_OF_NODES};
-    const char *name = word;
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds && name == word; k++) {
+    const char *name = NULL;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds && !name; k++) {
         const int set = ost_inp_find_set(inp, kinds[k], word);
-        name = set >= 0 ? inp->cells.set[set].name : word;
+        name = set >= 0 && inp->cells.set[set].count > 0 ? inp->cells.set[set].name : NULL;
     }
+    if (!name)
+        return "...";
     return ost_yaml_name(name[0] == '"' ? name + 1 : name, text);
 }
 

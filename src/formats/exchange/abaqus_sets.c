@@ -157,13 +157,29 @@ static OstStatus put_faces(OstInp *inp, const char *word, int side)
     return OST_SUCCESS;
 }
 
-/* Elements or a set of them, and which face: S1 to S6 of solids, SPOS and SNEG of shells. */
+/* Has a set shells alone? Both of their sides are the surface that it stands for without a face. */
+static int is_of_shells(OstInp *inp, const char *word)
+{
+    const int from = ost_inp_find_set(inp, OST_SET_OF_CELLS, word);
+    OstLocal shells = 0;
+    if (from < 0)
+        return 0;
+    ost_cells_keep_once(&inp->cells, from);
+    const OstCellSet *set = &inp->cells.set[from];
+    for (int k = 0; k < OST_CELL_KINDS; k++)
+        for (OstLocal i = 0; i < inp->cells.list[k].count && ost_cell_facts[k].dimension == 2; i++)
+            shells += ost_numbers_find(set->count, set->item, inp->cells.list[k].label[i]) >= 0;
+    return shells > 0 && shells == set->count;
+}
+
+/* Elements or a set of them, and which face: S1 to S6 of solids, SPOS and SNEG of shells. The free surface of solids,
+ * which a line without a face asks for, is not made. */
 OstStatus ost_inp_surface_line(OstInp *inp)
 {
     char word[OST_INP_WORD], face[OST_INP_WORD];
     ost_inp_word(inp->lines, word);
     ost_inp_word(inp->lines, face);
-    if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
+    if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0 || (face[0] == '\0' && is_of_shells(inp, word)))
         return put_shells(inp, word);
     if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '6' && face[2] == '\0')
         return put_faces(inp, word, face[1] - '1');
