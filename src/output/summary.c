@@ -291,7 +291,7 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
     if (fabs(newton->linear_stiffening) >= newton->linear_error)
         printf("leaves out that stress makes the body %s as it turns, and ", stiffened);
     else if (newton->linear_change >= newton->linear_error && newton->linear_error > newton->accuracy)
-        printf("leaves out that the loads act on the body as it has moved, and ");
+        printf("leaves out that the loads act on the body as it has moved, and to first order ");
     printf("is off %s: ", off);
     if (!newton->used && newton->linear_error <= newton->accuracy)
         printf("no more than the %.2g %% allowed, solved linearly\n", 100.0 * newton->accuracy);
