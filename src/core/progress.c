@@ -70,11 +70,14 @@ static void append_seconds(char *text, double seconds)
     }
 }
 
+/* What was foretold to take less says nothing once it is over. */
+static const double soon_over = 5.0;
+
 /* By what was foretold of the whole. */
 static void append_whole(char *text, double since)
 {
     const double left = line.expected - since;
-    if (!(line.expected > 0.0))
+    if (!(line.expected > 0.0) || (left < 0.0 && line.expected < soon_over))
         return;
     if (left < 0.0) {
         strcat(text, "longer than the ");
