@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from types import SimpleNamespace
 
 import numpy
 from matplotlib.image import imread
@@ -65,6 +66,12 @@ class Render(unittest.TestCase):
             self.assertGreater(panel[:150].mean(), 0.02)  # a shape
             self.assertGreater(panel[170:].mean(), 0.02)  # its section
             self.assertLess(abs(panel.mean() - panels[0].mean()), 0.01)
+
+    def test_von_mises_is_named_once(self):
+        shade_of = runpy.run_path(RENDER)["shade_of"]
+        bodies = [SimpleNamespace(value=numpy.array([0.0, 1.0]))]
+        for field in ("von_mises", "stress", "stress:mises"):
+            self.assertEqual(shade_of(bodies, field).name.replace("stress:", ""), "von Mises")
 
     def test_colours_stand_for_the_field_asked_for(self):
         picture = os.path.join(self.folder.name, "field.png")
