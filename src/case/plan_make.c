@@ -120,9 +120,15 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.mixed = !c->unmixed;
     if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
         plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
+    plan->adjoints = ost_plan_adjoints(c, ost_effects_mixed(&facts));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
+    const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
+    plan->solves_to_residual =
+        ost_plan_reactions(c) > 0 && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
     plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
                   (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);
