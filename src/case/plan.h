@@ -53,6 +53,8 @@ typedef struct OstPlan {
     double cells_across; /* and cells through that */
     int bends; /* would a thin wall bend? Not a curved one under pressure: it is a membrane, as a closed one is anyway
                 */
+    int adjoints;           /* of watched quantities */
+    int solves_to_residual; /* for a watched reaction of a mixed form, or of faces that are linked */
     OstCoarsening coarsening;
     OstPlanLevels levels; /* zeros where multigrid is not planned */
     OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */
@@ -136,6 +138,14 @@ void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects);
 
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
+
+/* Local. Watched reactions that statics alone does not give, as far as the case tells; and watched quantities whose
+ * error takes an adjoint problem: these, mean stresses of a mixed form, and what an accuracy is asked of. */
+int ost_plan_reactions(const OstCase *c);
+int ost_plan_adjoints(const OstCase *c, int mixed);
+
+/* Of so many load cases share adjoint problems (solve/reactions/reactions.h). */
+enum { OST_PLAN_MOST_SHARED = 12 };
 
 /* Local. Predicts the plan's bytes from its counts, method and effects. */
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan);

@@ -4,6 +4,7 @@
 #include "algebra/solver_plan.h"
 #include "core/error.h"
 #include "fields/output_field.h"
+#include "fields/stress_measure.h"
 #include "mesh/mesh_data.h"
 #include "orthostat/field.h"
 
@@ -120,9 +121,15 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     facts.mixed = !c->unmixed;
     if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
         plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
+    plan->adjoints = ost_plan_adjoints(c, ost_effects_mixed(&facts));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
+    const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
+    plan->solves_to_residual =
+        ost_plan_reactions(c) > 0 && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
     plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
                   (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);
@@ -149,4 +156,51 @@ int ost_plan_acts(const OstCase *c, const OstPlan *plan)
 {
     return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
            ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN);
+}
+
+/* --- what is watched --- */
+
+/* Do the boundaries watched hold all of a constraint? */
+static int holds_all(const OstSelection *watched, const OstSelection *held)
+{
+    if (watched->kind != OST_SELECT_BOUNDARY || held->kind != OST_SELECT_BOUNDARY)
+        return 0;
+    for (int b = 0; b < held->boundaries.count; b++)
+        if (ost_names_find(&watched->boundaries, held->boundaries.name[b]) < 0)
+            return 0;
+    return 1;
+}
+
+/* Would statics alone give a reaction: that of all there is? */
+static int is_static(const OstCase *c, const OstWatch *watch)
+{
+    int yes = c->spring_count == 0;
+    for (int k = 0; k < c->constraint_count; k++)
+        yes &= holds_all(&watch->on, &c->constraints[k].on);
+    return yes;
+}
+
+/* As in solve/reactions/mean_stress.c. */
+static int is_linear_mean(const OstWatch *watch)
+{
+    return watch->kind == OST_WATCH_STRESS && watch->region && watch->take == OST_TAKE_MEAN &&
+           (watch->component <= OST_STRESS_MEASURE_31 || watch->component == OST_STRESS_MEASURE_PRESSURE);
+}
+
+int ost_plan_reactions(const OstCase *c)
+{
+    int count = 0;
+    for (int w = 0; w < c->watch_count; w++)
+        count += c->watches[w].kind == OST_WATCH_REACTION && !is_static(c, &c->watches[w]);
+    return count;
+}
+
+int ost_plan_adjoints(const OstCase *c, int mixed)
+{
+    int count = ost_plan_reactions(c);
+    for (int w = 0; w < c->watch_count && mixed && c->large_rotation != OST_LARGE_ROTATION_ON; w++)
+        count += is_linear_mean(&c->watches[w]);
+    if (c->interest > 0 && c->watches[c->interest - 1].kind != OST_WATCH_STRAIN_ENERGY)
+        count++;
+    return count;
 }

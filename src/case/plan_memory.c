@@ -151,11 +151,23 @@ static int least_ranks(double blocks, double tet_nodes)
     return (int)fmin(fmax(ceil(fmax(9.0 * blocks, tet_nodes) / INT32_MAX), 1.0), INT32_MAX);
 }
 
+/* Of adjoint problems: the surplus of z on nodes and functions; and of what is out of balance, and a rigid motion. */
+static double adjoint_bytes(const OstCase *c, const OstPlan *plan)
+{
+    const OstMeshCounts *counts = &plan->counts;
+    const double functions = counts->edges + (plan->quadratic ? 2.0 * counts->tets : 0.0);
+    const double most = c->load_case_count > 0 || c->path_steps > 0 ? OST_PLAN_MOST_SHARED : 1.0;
+    if (plan->adjoints == 0 || !ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE))
+        return 0.0;
+    return 48.0 * counts->nodes + fmin(plan->adjoints, most) * (16.0 * functions + 48.0 * counts->nodes);
+}
+
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
 {
     const OstMeshCounts *counts = &plan->counts;
     const double recovery = ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
-    const double estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE)->bytes;
+    const double adjoints = adjoint_bytes(c, plan);
+    const double estimate = ost_effect_state(&plan->effects, OST_EFFECT_ERROR_ESTIMATE)->bytes + adjoints;
     const int q = plan->quadratic;
     plan->least_ranks = least_ranks(counts->blocks, (q ? 10.0 : 4.0) * counts->tets);
     plan->bytes_mesh =
@@ -168,7 +180,7 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
         foretell_hierarchy(plan, ranks, &plan->levels);
     plan->coarsening = find_coarsening(plan);
     plan->bytes_solver = solver_bytes(plan);
-    plan->bytes_effects = 0.0;
+    plan->bytes_effects = adjoints;
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
     plan->bytes_in_all = plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects - estimate - recovery +

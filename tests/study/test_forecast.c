@@ -115,6 +115,31 @@ static void what_is_hard_takes_more(void **state)
     assert_close(without.iterations, usual.iterations, 1e-9); /* nothing tells when to stop */
 }
 
+/* Each reaction that statics does not give takes an adjoint problem; load cases share it. */
+static void watched_quantities_take_more(void **state)
+{
+    static const char *const mesh = "block: {size: [1, 1, 1], divisions: [12, 12, 12]}";
+    char text[512], cases[768];
+    const OstForecast none = forecast(mesh, 2, USUAL, "");
+    const OstForecast by_statics = forecast(mesh, 2, USUAL, "watch: {r: {reaction: {boundary: xmin}, component: z}}\n");
+    const OstForecast place = forecast(mesh, 2, USUAL, "watch: {u: {displacement: {nearest: [1, 1, 1]}}}\n");
+    assert_close(by_statics.in_all, place.in_all, 1e-9);
+    assert_true(place.in_all > none.in_all);
+    snprintf(text, sizeof text, "springs: [{on: {boundary: zmax}, foundation: 10}]\n");
+    const OstForecast held = forecast(mesh, 2, USUAL, text);
+    strcat(text, "watch:\n  a: {reaction: {boundary: xmin}, component: z}\n");
+    const OstForecast one = forecast(mesh, 2, USUAL, text);
+    strcat(text, "  b: {reaction: {boundary: xmin}, component: x}\n");
+    const OstForecast two = forecast(mesh, 2, USUAL, text);
+    assert_int_equal(plan.adjoints, 2);
+    assert_true(one.seconds[OST_STAGE_ESTIMATE] > held.seconds[OST_STAGE_ESTIMATE] + held.seconds[OST_STAGE_SOLVE]);
+    assert_true(two.in_all - one.in_all > 0.5 * (one.in_all - held.in_all));
+    assert_true(one.bytes > held.bytes);
+    snprintf(cases, sizeof cases, "cases: [{name: p}, {name: q}, {name: r}]\n%s", text);
+    const OstForecast three = forecast(mesh, 2, USUAL, cases);
+    assert_true(three.seconds[OST_STAGE_ESTIMATE] < 2.5 * two.seconds[OST_STAGE_ESTIMATE]);
+}
+
 /* Cells 0.25 to 6 times as long as the wall is thick, in one and two layers. */
 static void thin_walls_take_more_iterations(void **state)
 {
@@ -278,6 +303,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(memory_is_foretold),
     cmocka_unit_test(a_solid_body_costs_more_an_unknown),
     cmocka_unit_test(what_is_hard_takes_more),
+    cmocka_unit_test(watched_quantities_take_more),
     cmocka_unit_test(thin_walls_take_more_iterations),
     cmocka_unit_test(cells_of_shapes_have_a_slenderness),
     cmocka_unit_test(few_unknowns_are_factored),

@@ -32,6 +32,12 @@ static const double usual_digits = 8.0;
 /* Where the solver stops at a share of the discretisation error: few, whatever the order. */
 static const double stopped_usual = 3.7, stopped_incompressible = 0.21, stopped_uneven = 0.05;
 
+/* An adjoint problem's iterations over those of a solve that stops, and over those of one that does not; what its
+ * estimate takes of one for a load, and each further load; and what the estimate takes on top where anything is
+ * watched, by order. */
+static const double adjoint_stopped = 1.2, adjoint_solved = 0.5, adjoint_estimate = 0.7, adjoint_again = 0.3;
+static const double settled[2] = {0.3, 1.0};
+
 /* Operations for each vertex while a hierarchy is made, over the square of its row's columns in the prolongator; for
  * each node of quadratic tets; and of a dense factorisation, for the cube of its unknowns. */
 static const double product_operations = 600.0, quadratic_operations = 34e3, factor_operations = 1.0 / 6.0;
@@ -52,7 +58,7 @@ static int is_multigrid(const OstPlan *plan)
 static int stops_early(const OstPlan *plan)
 {
     return is_multigrid(plan) && plan->solver.options.algebraic_fraction > 0.0 &&
-           ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE);
+           ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE) && !plan->solves_to_residual;
 }
 
 /* How many times as many iterations a material takes: by how near it is to incompressible, and how moduli differ. */
@@ -121,6 +127,22 @@ void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations,
             work[s] *= c->load_case_count;
 }
 
+/* Adjoint problems, which load cases share by linear theory, and what else watched quantities add to the estimate, from
+ * the seconds of the load cases' solves and estimates without. */
+static double watched_seconds(const OstCase *c, const OstPlan *plan, const double seconds[OST_STAGES])
+{
+    const double cases = c->load_case_count > 0 ? c->load_case_count : 1.0, adjoints = plan->adjoints;
+    const double solve = seconds[OST_STAGE_SOLVE] / cases, estimate = seconds[OST_STAGE_ESTIMATE] / cases;
+    const double shared = fmin(adjoints, OST_PLAN_MOST_SHARED);
+    const double found = c->load_case_count > 0 ? shared + cases * (adjoints - shared) : adjoints;
+    const double of_solve = stops_early(plan) ? adjoint_stopped : adjoint_solved;
+    const double other = c->watch_count > 0 ? settled[plan->quadratic] * cases : 0.0;
+    if (!ost_effect_on(&plan->effects, OST_EFFECT_ERROR_ESTIMATE))
+        return 0.0;
+    return found * (of_solve * solve + adjoint_estimate * estimate) +
+           (adjoint_again * (cases * adjoints - found) + other) * estimate;
+}
+
 void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *rates, int ranks, OstForecast *forecast)
 {
     *forecast = (OstForecast){.iterations = ost_forecast_iterations(plan), .start = rates->start};
@@ -129,8 +151,10 @@ void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *ra
     for (int s = 0; s < OST_STAGES; s++) {
         const double rate = ost_rate_at(rates, 1 + plan->quadratic, (OstStage)s, plan->bytes_in_all / ranks);
         forecast->seconds[s] = forecast->work[s] * rate / ranks;
-        forecast->in_all += forecast->seconds[s];
     }
+    forecast->seconds[OST_STAGE_ESTIMATE] += watched_seconds(c, plan, forecast->seconds);
+    for (int s = 0; s < OST_STAGES; s++)
+        forecast->in_all += forecast->seconds[s];
     if (ost_effect_on(&plan->effects, OST_EFFECT_LARGE_ROTATION))
         forecast->newton =
             newton_assembly * forecast->seconds[OST_STAGE_ASSEMBLY] + newton_solve * forecast->seconds[OST_STAGE_SOLVE];
