@@ -155,6 +155,21 @@ static void tell_plan(const OstSolver *solver)
                 r == 0 ? " first: " : "", solver->plan.reason[r]);
 }
 
+static OstStatus raise_singular(OstContext *ctx)
+{
+    return OST_RAISE(ctx, OST_NOT_CONVERGED,
+                     "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
+                     ost_rounding_remedy);
+}
+
+/* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
+static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
+{
+    snprintf(step->outcome, sizeof step->outcome,
+             "does not fit, and would not help: the stiffness is singular to rounding");
+    return raise_singular(ctx);
+}
+
 /* Builds the first strategy. If the plan chose to factor, but the analysis finds that the factors do not fit into
  * memory, plans again without them. */
 static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
@@ -174,7 +189,7 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
     OstStatus status = OST_SUCCESS;
-    solver->steps = 0;
+    solver->steps = solver->singular = 0;
     OST_TRY(ost_geometry_renew(&solver->geometry));
     OST_TRY(measure(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
@@ -183,6 +198,9 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
     tell_plan(solver);
     if (solver->matrix->global_rows > 0)
         status = build_first(solver, options);
+    const int has_no_room = status == OST_OUT_OF_MEMORY || status == OST_LIMIT_EXCEEDED;
+    if (has_no_room && solver->singular && solver->steps > 0)
+        status = refuse_singular(solver->ctx, &solver->step[solver->steps - 1]);
     return status == OST_SUCCESS ? status : raise_all(solver->ctx, solver->step, solver->steps, status);
 }
 
@@ -304,21 +322,6 @@ static int should_change(const OstSolver *solver, const OstGoal *goal)
 static int is_singular(const OstSolver *solver, const OstGoal *goal)
 {
     return goal->singular || solver->singular;
-}
-
-static OstStatus raise_singular(OstContext *ctx)
-{
-    return OST_RAISE(ctx, OST_NOT_CONVERGED,
-                     "the stiffness is singular to rounding, which leaves the displacement less than one digit; %s",
-                     ost_rounding_remedy);
-}
-
-/* Memory for a factorisation is no way out then: replaces the words of the step that did not get it. */
-static OstStatus refuse_singular(OstContext *ctx, OstSolveStep *step)
-{
-    snprintf(step->outcome, sizeof step->outcome,
-             "does not fit, and would not help: the stiffness is singular to rounding");
-    return raise_singular(ctx);
 }
 
 /* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
