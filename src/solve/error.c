@@ -351,7 +351,9 @@ OstStatus ost_find_turned_errors(const OstProblem *problem, OstSolver *solver, c
     OST_TRY_DONE(ost_agree(ctx, status));
     search.of_rows = search.residual + rows;
     memcpy(search.residual, turned->residual, rows * sizeof *search.residual);
-    OST_TRY_DONE(measure(&search, 0.1, errors));
+    OST_TRY_DONE(measure(&search, 1.0, errors));
+    if (largest(errors) > small_error)
+        OST_TRY_DONE(measure(&search, 0.1, errors));
     OST_TRY_DONE(look_closer(&search, errors));
     errors->reaction *= forces_caution;
     errors->stress *= forces_caution;
