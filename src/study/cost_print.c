@@ -142,9 +142,11 @@ static void print_reference(const OstCostQuantity *quantity)
     printf("\n");
 }
 
-/* Where no run reaches the target: the smallest estimated error. */
+/* Where no run reaches the target: the smallest estimated error. None is told to be smaller than that of the reference.
+ */
 static void print_out_of_reach(const OstCost *cost, int quantity)
 {
+    const double uncertainty = cost->quantity[quantity].reference.uncertainty;
     double best = INFINITY;
     char number[CELL_SIZE];
     for (int i = 0; i < cost->run_count; i++)
@@ -152,6 +154,8 @@ static void print_out_of_reach(const OstCost *cost, int quantity)
     percent(best, number, sizeof number);
     if (isinf(best))
         printf("no run reaches it: the accuracy of the reference is not known\n");
+    else if (best <= uncertainty)
+        printf("no run is known to reach it: the reference is good to %s alone; --refine more\n", number);
     else
         printf("no run reaches it: the best has %s\n", number);
 }
