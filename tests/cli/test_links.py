@@ -91,7 +91,7 @@ output: {file: bar.vtkhdf}
 
 def both_sides_of_a_tie_are_refined():
     """A post whose coarse foot follows the fine top of a base: where the error is, at the foot's edge, both are cut. With the
-    base alone cut, 94,071 unknowns had more energy than the body that the parts make as one mesh, and were 15 % off."""
+    base alone cut, 94,071 unknowns had more energy than the parts have as one mesh, and were told to be 15 % off."""
     folder = new_folder()
     brick_mesh(os.path.join(folder, "parts.msh"), [("base", (0, 0, 0), (3, 3, 1), (9, 9, 3), ["base"]),
                                                    ("post", (1, 1, 1), (1, 1, 2), (2, 2, 4), ["post"])])
