@@ -91,10 +91,10 @@ output: {file: bar.vtkhdf}
 
 def both_sides_of_a_tie_are_refined():
     """A post whose coarse foot follows the fine top of a base: where the error is, at the foot's edge, both are cut. With the
-    base alone cut, 94,071 unknowns had more energy than the parts have as one mesh, and were told to be 15 % off."""
+    base alone cut, 6,846 unknowns had 7.6 % more energy than the parts have as one mesh."""
     folder = new_folder()
-    brick_mesh(os.path.join(folder, "parts.msh"), [("base", (0, 0, 0), (3, 3, 1), (9, 9, 3), ["base"]),
-                                                   ("post", (1, 1, 1), (1, 1, 2), (2, 2, 4), ["post"])])
+    brick_mesh(os.path.join(folder, "parts.msh"), [("base", (0, 0, 0), (3, 3, 1), (6, 6, 2), ["base"]),
+                                                   ("post", (1, 1, 1), (1, 1, 2), (1, 1, 2), ["post"])])
     text = """
 mesh: {file: parts.msh}
 element: {order: 2}
@@ -104,7 +104,7 @@ constraints:
   - {on: {boundary: post_zmin}, tied_to: {boundary: base_zmax}}
 loads: [{on: {boundary: post_zmax}, traction: [1000, 0, 0]}]
 large_rotation: off
-accuracy: {relative_error: 0.16}
+accuracy: {relative_error: 0.2}
 """
     whole = 0.02595 # extrapolated from the joined mesh (orthostat mesh --merge): 124,230 and 302,877 unknowns, quadratic tets
     for ranks in fewer(RANKS):
@@ -112,7 +112,7 @@ accuracy: {relative_error: 0.16}
         check(done.exit_code == 0, done.errors)
         error = max(1 - report["adaption"]["levels"][-1]["strain_energy"] / whole, 0) ** 0.5
         stated = report["answer_error"]["relative"]
-        check(0.7 * error < stated < 1.5 * error and error < 0.16, f"stated {stated}, true {error}")
+        check(0.7 * error < stated < 1.5 * error and error < 0.2, f"stated {stated}, true {error}")
 
 
 def load_cases_have_faces_of_their_own():
