@@ -48,8 +48,11 @@ def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
     command = [program, *map(str, arguments)]
     if ranks > 1:
         command = [MPIEXEC, "-n", str(ranks), *command]
-    process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, text=True, timeout=timeout)
+    for _ in range(3):
+        process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                 stderr=subprocess.PIPE, text=True, timeout=timeout)
+        if "session_dir.c" not in process.stderr: # else the mpirun before was still removing its folder: nothing began
+            break
     return Finished(process)
 
 
