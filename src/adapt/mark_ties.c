@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "adapt/mark_ties.h"
 
+#include "adapt/mark.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -8,6 +9,9 @@
 
 #include <math.h>
 #include <string.h>
+
+/* In one level: a side that begins far coarser catches up over several, as memory bounds a level's growth. */
+enum { MOST_CUTS = 2 * OST_MOST_CUTS };
 
 /* How fine a tet is, in cuts: three of them halve its longest edge. */
 static double fineness(const OstMesh *mesh, OstLocal tet, int times)
@@ -65,7 +69,7 @@ OstStatus ost_mark_ties(const OstMesh *mesh, const OstLinks *links, unsigned cha
     for (OstLocal t = 0; t < mesh->owned_tets && status == OST_SUCCESS; t++) {
         const double more = finest_followed(mesh, links, finest, t) - fineness(mesh, t, times[t]);
         if (more > 0.5)
-            times[t] = (unsigned char)(times[t] + lround(more));
+            times[t] = (unsigned char)fmin(times[t] + round(more), MOST_CUTS);
     }
     OST_FREE(finest);
     return status;
