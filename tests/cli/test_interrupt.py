@@ -124,7 +124,7 @@ def on_terminal(*words):
 
 
 seen = on_terminal()
-for words in ("% of the whole", "solve ", "multigrid setup", "error estimate"):
+for words in ("% of the whole", "solve ", "multigrid setup"):  # others may be over before the line is drawn again
     check(words in seen, f"the terminal shows nothing of '{words}': {seen[-2000:]}")
 check(seen.count("\n") <= 2 and seen.rstrip("\n").endswith("\x1b[K"), "the line is not erased at the end: " + repr(seen[-200:]))
 check(on_terminal("-q") == "", "-q shows something")
