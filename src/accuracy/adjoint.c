@@ -477,6 +477,7 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
         OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, tet_share, error));
         if (!interest->moved) /* unlike a reaction, which is the work of u on z, on which the exact error does none */
             *error = -*error;
+        *error += copysign(interest->doubt, *error);
         OST_THEN(share_interest(problem, of_adjoint, *error, tet_share));
     }
     ost_adjoint_destroy(&adjoint);

@@ -15,6 +15,7 @@ typedef struct OstInterest {
                        much it grows with each displacement, and with a mixed form's pressures; or NULL */
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
+    double doubt; /* of a reaction: so much of it others may bear that hold the same nodes */
 } OstInterest;
 
 /* Collective. Makes that of a watched displacement or reaction, or of the mean over a region of a measure that is

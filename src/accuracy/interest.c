@@ -71,65 +71,97 @@ static void keep_reaction(const OstSupports *supports, const double *u, OstLocal
         force[i] -= (supports->links ? 0.0 : free_force[i]) + of_spring[i];
 }
 
-/* The whole reaction of the nodes, or its moment. */
+/* The nodes of a reaction, and which components of what acts there others bear too (ost_select_shared). */
+typedef struct Borne {
+    OstLocal count, *nodes;
+    unsigned char *shared;
+} Borne;
+
+static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, Borne *borne)
+{
+    const OstMesh *mesh = problem->mesh;
+    unsigned char *held = NULL;
+    OST_TRY(ost_select_nodes(problem->scene->c, mesh, &watch->on, &borne->count, &borne->nodes));
+    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &held, mesh->node_count)));
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        held[n] = ost_supports_held(problem->supports, n);
+    const OstStatus status = ost_select_shared(mesh, held, borne->count, borne->nodes, &borne->shared);
+    OST_FREE(held);
+    return status;
+}
+
+/* Their reaction, or its moment; and what of it others may bear in their place, or they in that of others. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
-                               OstLocal count, const OstLocal *nodes, double *forces, double sum[3])
+                               const Borne *borne, double *forces, double sum[6])
 {
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    const OstLocal *nodes = borne->nodes;
     double *force = NULL, *load = NULL;
     OstStatus status = OST_NEW(problem->ctx, &force, numbers);
     OST_THEN(OST_NEW(problem->ctx, &load, numbers));
     OST_THEN(ost_problem_force(problem, t, u, force));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, u, load);
-    memset(sum, 0, 3 * sizeof *sum);
-    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
-        double of_node[3], arm[3], moment[3];
+    memset(sum, 0, 6 * sizeof *sum);
+    for (OstLocal n = 0; n < borne->count && status == OST_SUCCESS; n++) {
+        double of_node[3], in_doubt[3], arm[3], moment[3], moment_in_doubt[3];
         if (nodes[n] >= problem->mesh->owned_nodes)
             continue;
         find_arm(problem, watch, u, nodes[n], arm);
         for (size_t i = 0; i < 3; i++)
             of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
         keep_reaction(problem->supports, u, nodes[n], of_node);
+        for (int i = 0; i < 3; i++) {
+            in_doubt[i] = borne->shared[nodes[n]] >> i & 1 ? 0.5 * of_node[i] : 0.0;
+            of_node[i] -= in_doubt[i];
+        }
         ost_cross3(arm, of_node, moment);
+        ost_cross3(arm, in_doubt, moment_in_doubt);
         if (forces)
             memcpy(forces + 3 * (size_t)nodes[n], of_node, sizeof of_node);
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 3; i++) {
             sum[i] += watch->of_moment ? moment[i] : of_node[i];
+            sum[3 + i] += watch->of_moment ? moment_in_doubt[i] : in_doubt[i];
+        }
     }
     OST_FREE(force);
     OST_FREE(load);
     OST_TRY(ost_agree(problem->ctx, status));
-    return ost_sum(problem->ctx, 3, sum);
+    return ost_sum(problem->ctx, 6, sum);
 }
 
 static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                              OstInterest *interest)
 {
-    OstLocal *nodes = NULL, count = 0;
-    double sum[3], direction[3];
+    Borne borne = {0};
+    double sum[6], direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
     if (watch->of_moment && !ost_problem_is_linear(problem))
         OST_TRY(
             ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->load, 3 * (size_t)problem->mesh->owned_nodes)));
-    OST_TRY(ost_select_nodes(problem->scene->c, problem->mesh, &watch->on, &count, &nodes));
-    const OstStatus status = find_reaction(problem, watch, t, u, count, nodes, interest->load, sum);
+    OstStatus status = select_borne(problem, watch, &borne);
+    OST_THEN(find_reaction(problem, watch, t, u, &borne, interest->load, sum));
+    const OstLocal *nodes = borne.nodes;
     take_direction(watch, sum, direction);
     memcpy(interest->direction, direction, sizeof direction);
     interest->value = ost_dot3(direction, sum);
-    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++) {
-        double arm[3];
+    interest->doubt = fabs(ost_dot3(direction, sum + 3));
+    for (OstLocal n = 0; n < borne.count && status == OST_SUCCESS; n++) {
+        double arm[3], *moved = interest->moved + 3 * (size_t)nodes[n];
         find_arm(problem, watch, u, nodes[n], arm);
-        memcpy(interest->moved + 3 * (size_t)nodes[n], direction, sizeof direction);
+        memcpy(moved, direction, sizeof direction);
         if (watch->of_moment)
-            ost_cross3(direction, arm, interest->moved + 3 * (size_t)nodes[n]);
+            ost_cross3(direction, arm, moved);
+        for (int i = 0; i < 3; i++)
+            moved[i] *= borne.shared[nodes[n]] >> i & 1 ? 0.5 : 1.0;
         if (interest->load && nodes[n] < problem->mesh->owned_nodes) { /* arms grow with the displacement */
             double force[3];
             memcpy(force, interest->load + 3 * (size_t)nodes[n], sizeof force);
             ost_cross3(direction, force, interest->load + 3 * (size_t)nodes[n]);
         }
     }
-    OST_FREE(nodes);
+    OST_FREE(borne.nodes);
+    OST_FREE(borne.shared);
     return status;
 }
 

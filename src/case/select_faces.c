@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/index_map.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 
 #include <string.h>
 
@@ -152,4 +153,36 @@ done:
     OST_FREE(found.selected);
     ost_ledger_leave(ctx);
     return status;
+}
+
+/* --- nodes that two supports hold --- */
+
+/* Of nodes, beside bits for x, y and z. */
+enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7 };
+
+static void look_at_face(const OstSurface *surface, OstLocal face, const unsigned char *held, unsigned char *flags)
+{
+    const OstLocal *node = surface->nodes + (size_t)face * (size_t)surface->nodes_per_face;
+    unsigned along = ALONG, selected = SELECTED;
+    for (int k = 0; k < surface->nodes_per_face; k++) {
+        along &= held[node[k]];
+        selected &= flags[node[k]];
+    }
+    for (int k = 0; k < surface->nodes_per_face; k++)
+        flags[node[k]] |= (unsigned char)(selected ? HAS_FACE : along);
+}
+
+OstStatus ost_select_shared(const OstMesh *mesh, const unsigned char *held, OstLocal count, const OstLocal *nodes,
+                            unsigned char **shared)
+{
+    const OstSurface *surface;
+    OST_TRY(ost_mesh_surface(mesh, &surface));
+    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count)));
+    for (OstLocal n = 0; n < count; n++)
+        (*shared)[nodes[n]] = SELECTED;
+    for (OstLocal f = 0; f < surface->count; f++)
+        look_at_face(surface, f, held, *shared);
+    for (OstLocal n = 0; n < mesh->node_count; n++)
+        (*shared)[n] = (*shared)[n] >= (SELECTED | HAS_FACE) ? (*shared)[n] & ALONG & held[n] : 0;
+    return ost_halo_import(mesh->halo, 1, *shared);
 }

@@ -35,6 +35,7 @@ typedef struct OstVerdict {
 typedef struct OstInterestError {
     const OstWatch *watch; /* the case's; NULL: none is asked about, or its error is not known */
     double value, error;   /* the exact value less this one, as estimated */
+    double doubt;          /* of it, of either sign */
     double *share;         /* owned_tets: each one's share of it, where a mesh should be refined for it */
     double sum;            /* of the shares: |error|, or more where parts of it cancel */
 } OstInterestError;
@@ -59,6 +60,8 @@ struct OstResult {
     double *internal;        /* 3 × owned_nodes: forces of the tets, where the solve has left them to the checks */
     double *force;           /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;        /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
+    unsigned char *held;     /* node_count: along what each node is held (ost_supports_held), where a reaction is
+                                watched; or NULL */
     double *strain, *stress; /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */

@@ -48,6 +48,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->internal);
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
+    OST_FREE((*result)->held);
     OST_FREE((*result)->strain);
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
@@ -71,11 +72,24 @@ void ost_result_take_outcome(OstResult *result, OstStatus solved)
         ost_object(&result->verdict, solved, "%s", ost_error_text(result->ctx));
 }
 
+static int watches_reaction(const OstProblem *problem)
+{
+    int any = 0;
+    for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++)
+        any |= problem->scene->c->watches[w].kind == OST_WATCH_REACTION;
+    return any;
+}
+
 OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, double t)
 {
     OstContext *ctx = result->ctx;
+    const OstLocal nodes = result->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
-    OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)result->mesh->node_count));
+    OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)nodes));
+    if (watches_reaction(problem))
+        OST_THEN(OST_NEW(ctx, &result->held, nodes));
+    for (OstLocal n = 0; n < nodes && result->held && status == OST_SUCCESS; n++)
+        result->held[n] = ost_supports_held(problem->supports, n);
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, result->displacement, result->force);
     result->t = ost_problem_eigen_share(problem, t);

@@ -49,16 +49,18 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
     return OST_SUCCESS;
 }
 
-/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. */
-static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, double sum[3])
+/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. Of components
+ * that are `shared` (ost_select_shared) others bear half. */
+static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, unsigned shared, double sum[3])
 {
-    const double *force = result->reaction + 3 * (size_t)node;
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     const int turns = result->formulation != OST_FORMULATION_LINEAR;
-    double arm[3], moment[3];
-    for (int i = 0; i < 3; i++)
+    double arm[3], force[3], moment[3];
+    for (int i = 0; i < 3; i++) {
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
+        force[i] = (shared >> i & 1 ? 0.5 : 1.0) * result->reaction[3 * (size_t)node + (size_t)i];
+    }
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
         sum[i] += watch->of_moment ? moment[i] : force[i];
@@ -85,12 +87,12 @@ static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal c
     for (OstLocal n = 0; n < count; n++) {
         double force[3] = {0.0};
         if (nodes[n] < owned)
-            add_reaction(result, watch, nodes[n], force);
+            add_reaction(result, watch, nodes[n], 0, force);
         sums[0] += fabs(component_of(force, watch->component));
     }
     for (OstLocal n = 0; n < owned; n++) {
         double force[3] = {0.0};
-        add_reaction(result, watch, n, force);
+        add_reaction(result, watch, n, 0, force);
         sums[1] += ost_norm3(force);
     }
     OST_TRY(ost_sum(result->ctx, 2, sums));
@@ -103,13 +105,16 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     OstContext *ctx = scene->ctx;
     OstLocal *nodes = NULL;
     OstLocal count = 0;
+    unsigned char *shared = NULL;
     double sum[3] = {0.0};
     int does_act = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
-    for (OstLocal n = 0; n < count; n++)
+    OstStatus status = ost_select_shared(scene->mesh, result->held, count, nodes, &shared);
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes)
-            add_reaction(result, watch, nodes[n], sum);
-    OstStatus status = acts(result, watch, count, nodes, &does_act);
+            add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
+    OST_THEN(acts(result, watch, count, nodes, &does_act));
+    OST_FREE(shared);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));
     OST_TRY(status);
@@ -388,7 +393,8 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
                                          watched.value,
                                          watch->expected,
                                          watched.error,
-                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY,
+                                         result->interest.watch == watch && watch->kind != OST_WATCH_STRAIN_ENERGY &&
+                                             result->interest.doubt == 0.0,
                                          watched.placed,
                                          {watched.place[0], watched.place[1], watched.place[2]},
                                          watched.why,

@@ -257,6 +257,7 @@ static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedR
             OST_THEN(work_of(wanted->search, ost_adjoint_displacement(wanted->adjoint), beside, &found->missing));
         OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, wanted->tet_error,
                                    &found->error));
+        found->error += copysign(wanted->search->interest.doubt, found->error);
         found->known = status == OST_SUCCESS;
     }
     if (!wanted->is_kept)
