@@ -57,6 +57,20 @@ static OstStatus move_large(const Search *search, double t, const double *u, con
     return ost_agree(problem->ctx, status);
 }
 
+/* The forces of a strain, in steps.force. */
+static OstStatus strain_load(Search *search, double *strain)
+{
+    const OstProblem *problem = search->estimate->problem;
+    OstMaterialField field;
+    OstProblem strained;
+    ost_problem_at_pressure(problem, NULL, &field, &strained);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = strain;
+    memset(search->steps.force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *search->steps.force);
+    OST_TRY(ost_agree(problem->ctx, ost_eigenstrain_force(problem->mesh, &field, 1.0, search->steps.force)));
+    return ost_steps_take_rows(&search->steps, search->steps.q.rows);
+}
+
 /* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. The motion
  * strains the body and no spring, whose forces are reactions. */
 static OstStatus adjoint_load(Search *search, const OstInterest *interest, double t, const double *u)
@@ -65,6 +79,8 @@ static OstStatus adjoint_load(Search *search, const OstInterest *interest, doubl
     const OstOperator *stiffness = &search->estimate->stiffness;
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    if (interest->strain)
+        return strain_load(search, interest->strain);
     if (!interest->moved) {
         memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
     } else if (stiffness->turned_by) {
@@ -148,6 +164,18 @@ static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
         steps->r.functions[i] = -steps->r.functions[i];
     ost_complement_project(&search->estimate->complement, steps->r.functions);
     return OST_SUCCESS;
+}
+
+/* r: what z, its pressure and the strain of its load leave on the functions. */
+static OstStatus mixed_adjoint_residual(Search *search, const OstState *of)
+{
+    OstSteps *steps = &search->steps;
+    OstOperator at_state = search->estimate->stiffness;
+    double *left = ost_steps_spare(steps);
+    at_state.problem = of->problem;
+    ost_operator_small_force(&at_state, of->eigen_share, of->u, steps->force, left);
+    memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
+    return ost_search_take(search, left);
 }
 
 /* A tet's part is at most the product of both errors in it. Parts have signs and cancel in part. */
@@ -272,20 +300,6 @@ static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted,
     return ost_agree(problem->ctx, status);
 }
 
-/* The forces of a strain, in steps.force. */
-static OstStatus strain_load(Search *search, double *strain)
-{
-    const OstProblem *problem = search->estimate->problem;
-    OstMaterialField field;
-    OstProblem strained;
-    ost_problem_at_pressure(problem, NULL, &field, &strained);
-    field.region_eigenstrain = NULL;
-    field.tet_eigenstrain = strain;
-    memset(search->steps.force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *search->steps.force);
-    OST_TRY(ost_agree(problem->ctx, ost_eigenstrain_force(problem->mesh, &field, 1.0, search->steps.force)));
-    return ost_steps_take_rows(&search->steps, search->steps.q.rows);
-}
-
 /* z only tells an error, of which two digits are enough. */
 static const double residual_of_mixed = 1e-4;
 
@@ -302,8 +316,7 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(adjoint_volume(problem, wanted, g));
-    OST_TRY_DONE(interest->strain ? strain_load(search, interest->strain)
-                                  : adjoint_load(search, interest, wanted->t, wanted->u));
+    OST_TRY_DONE(adjoint_load(search, interest, wanted->t, wanted->u));
     ost_solver_aim(steps->solver, (OstSolverAim){.relative_residual = residual_of_mixed});
     status = ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
                                     steps->z, &report);
@@ -316,18 +329,6 @@ done:
     OST_FREE(g);
     OST_FREE(pressure);
     return status;
-}
-
-/* r: what z, its pressure and the strain of its load leave on the functions. */
-static OstStatus mixed_adjoint_residual(Search *search, const OstState *of)
-{
-    OstSteps *steps = &search->steps;
-    OstOperator at_state = search->estimate->stiffness;
-    double *left = ost_steps_spare(steps);
-    at_state.problem = of->problem;
-    ost_operator_small_force(&at_state, of->eigen_share, of->u, steps->force, left);
-    memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
-    return ost_search_take(search, left);
 }
 
 /* The surplus of z and of its pressure. */
@@ -361,6 +362,21 @@ done:
     return status;
 }
 
+/* r of a mean stress: what z, steps.u, and the strain of its load leave. */
+static OstStatus strained_residual(Search *search, const OstInterest *interest)
+{
+    OstSteps *steps = &search->steps;
+    OstMaterialField field;
+    OstProblem state;
+    ost_problem_at_pressure(search->estimate->problem, NULL, &field, &state);
+    field.region_eigenstrain = NULL;
+    field.tet_eigenstrain = interest->strain;
+    OST_TRY(mixed_adjoint_residual(search, &(OstState){&state, steps->u, 1.0, OST_FORMULATION_LINEAR}));
+    for (size_t i = 0; i < 3 * (size_t)search->estimate->problem->mesh->node_count; i++)
+        steps->u[i] /= steps->size;
+    return OST_SUCCESS;
+}
+
 /* What the second order has of z, which is steps.u in units of steps.size, and stays. */
 static OstStatus find_second(Search *search, double *of_second)
 {
@@ -384,9 +400,10 @@ static OstStatus find_plain(Search *search, const Wanted *wanted, OstAdjoint *ad
     OstStatus status = OST_SUCCESS;
     OST_TRY(solve_adjoint(search, wanted->interest, wanted->t, wanted->u, wanted->share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
-    OST_TRY(adjoint_residual(search, wanted->interest));
+    OST_TRY(wanted->interest->strain ? strained_residual(search, wanted->interest)
+                                     : adjoint_residual(search, wanted->interest));
     /* The z of a displacement is that of a force at a vertex, which has no energy: its orders tell nothing. */
-    if (wanted->interest->moved && ost_orders_are_known(search->estimate)) {
+    if ((wanted->interest->moved || wanted->interest->strain) && ost_orders_are_known(search->estimate)) {
         OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_second, problem->mesh->owned_tets)));
         OST_TRY_DONE(find_second(search, of_second));
     }

@@ -139,8 +139,14 @@ void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects);
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 
+/* Local. Is it a mean over a region, of a measure that is linear in the stress? Its error takes an adjoint problem where
+ * Young's moduli differ by this factor. */
+int ost_watch_is_linear_mean(const OstWatch *watch);
+#define OST_UNEVEN_MODULI 30.0
+
 /* Local. Watched reactions that statics alone does not give, as far as the case tells; and watched quantities whose
- * error takes an adjoint problem: these, mean stresses of a mixed form, and what an accuracy is asked of. */
+ * error takes an adjoint problem: these, mean stresses of a mixed form or of moduli that differ far, and what an
+ * accuracy is asked of. */
 int ost_plan_reactions(const OstCase *c);
 int ost_plan_adjoints(const OstCase *c, int mixed);
 

@@ -180,8 +180,7 @@ static int is_static(const OstCase *c, const OstWatch *watch)
     return yes;
 }
 
-/* As in solve/reactions/mean_stress.c. */
-static int is_linear_mean(const OstWatch *watch)
+int ost_watch_is_linear_mean(const OstWatch *watch)
 {
     return watch->kind == OST_WATCH_STRESS && watch->region && watch->take == OST_TAKE_MEAN &&
            (watch->component <= OST_STRESS_MEASURE_31 || watch->component == OST_STRESS_MEASURE_PRESSURE);
@@ -195,11 +194,24 @@ int ost_plan_reactions(const OstCase *c)
     return count;
 }
 
+/* As in solve/reactions/mean_stress.c. */
+static int is_uneven(const OstCase *c)
+{
+    double most = 0.0, least = INFINITY;
+    for (int k = 0; k < 3 * c->material_count; k++) {
+        const double modulus = c->materials[k / 3].material.constants.youngs_modulus[k % 3];
+        most = fmax(most, modulus);
+        least = fmin(least, modulus);
+    }
+    return most >= OST_UNEVEN_MODULI * least;
+}
+
 int ost_plan_adjoints(const OstCase *c, int mixed)
 {
+    const int of_means = mixed || is_uneven(c);
     int count = ost_plan_reactions(c);
-    for (int w = 0; w < c->watch_count && mixed && c->large_rotation != OST_LARGE_ROTATION_ON; w++)
-        count += is_linear_mean(&c->watches[w]);
+    for (int w = 0; w < c->watch_count && of_means && c->large_rotation != OST_LARGE_ROTATION_ON; w++)
+        count += ost_watch_is_linear_mean(&c->watches[w]);
     if (c->interest > 0 && c->watches[c->interest - 1].kind != OST_WATCH_STRAIN_ENERGY)
         count++;
     return count;

@@ -198,8 +198,6 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
-    OST_TRY(ost_mean_stresses_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
-                                   shares && !analysis->company ? kept : NULL, result->reactions));
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, result->tet_error, shares ? kept : NULL, result->reactions);
 }

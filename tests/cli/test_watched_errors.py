@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Errors of watched quantities where rotations are large, along a path, where nodes follow others and by the mixed form, against finer
 meshes; and why there is none, in words."""
+import os
+
+from bricks import brick_mesh
 from program import check, fewer, new_folder, solve
 
 folder = new_folder()
@@ -198,6 +201,26 @@ for ranks in fewer((1, 2)):
         check(1 < abs(end["error"] / (1.35 - end["value"])) < (4 if order == 1 else 2.5), f"a common edge, order {order}: {end}")
         check(found["along"]["error"] == 0, f"another direction: {found['along']}")
         check(not asked or (end["error"] < 0.1 * end["value"] and "its error added" not in done.output), done.output)
+
+# Means in a layer up to 1000 times stiffer, which has little of the energy: by few steps they were other ones on two ranks.
+brick_mesh(os.path.join(folder, "layers.msh"), [("b", (0, 0, 0), (1, 1, 1), (3, 3, 3), ("soft", "stiff", "soft"))])
+LAYERS = """mesh: {file: layers.msh, refine: FINER}
+element: {order: 2}
+materials: [{region: soft, youngs_modulus: 1e4, poissons_ratio: 0.3},
+    {region: stiff, youngs_modulus: [1e7, 1e5, 1e5], poissons_ratio: 0.3, axes: {fixed: {e1: [1, 1, 0], e3: [0, 0, 1]}}}]
+constraints: [{on: {boundary: b_xmin}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: b_xmax}, traction: [1, 0, 2]}, {on: {boundary: b_zmax}, pressure: 1}]
+large_rotation: off
+watch:
+""" + "".join(f"  {name}: {{stress: {{region: stiff}}, component: {name}}}\n" for name in ("xx", "zx", "pressure"))
+finer, first = watched(LAYERS.replace("FINER", "1"), 2, "")[0], {}
+for ranks in fewer((1, 2)):
+    found, _ = watched(LAYERS.replace("FINER", "0"), 2, "", ranks)
+    for name, value in found.items():
+        missing = finer[name]["value"] + finer[name]["error"] - value["value"]
+        check(name == "pressure" or 0.7 < value["error"] / missing < 1.4, f"a stiff layer's {name}, {ranks} ranks: {value}, {missing}")
+        first[name] = first.get(name, value["error"])
+        check(abs(value["error"] / first[name] - 1) < 0.05, f"a stiff layer's {name}: {value} on {ranks} ranks, {first} on one")
 
 # Statics gives a force, whatever the rotations.
 found, done = watched(SLID, 1, "10, 2, 2")

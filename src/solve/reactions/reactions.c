@@ -272,11 +272,12 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
     const OstCase *c = problem->scene->c;
     const double share = fmin(fmax(share_of_error * relative, least_share), most_share);
     double *imbalance = NULL, *rigid = NULL;
-    if (!any(c) || !is_work(problem))
+    if (!ost_reactions_are_watched(problem))
         return OST_SUCCESS;
     OstStatus status = ost_agree(problem->ctx, OST_NEW(problem->ctx, &rigid, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(find_imbalance(problem, t, u, &imbalance));
-    for (int w = 0; w < c->watch_count && status == OST_SUCCESS; w++) {
+    OST_THEN(ost_mean_stresses_find(problem, estimate, solver, t, u, imbalance, tet_error, kept, found));
+    for (int w = 0; w < c->watch_count && status == OST_SUCCESS && is_work(problem); w++) {
         Search search = {problem, &c->watches[w], {0}, rigid, imbalance};
         if (search.watch->kind != OST_WATCH_REACTION)
             continue;

@@ -12,7 +12,8 @@
  * work of u's residual on the surplus of z. Where a rigid motion of the body is such a w, statics alone gives R. */
 
 /* Mean stresses of a mixed form have adjoint problems too, by linear theory: the error of u and p, found by few steps,
- * has half to two thirds of a mean's error, and the work of what u and p leave on the surplus of z four fifths. */
+ * has half to two thirds of a mean's error, and the work of what u and p leave on the surplus of z four fifths. So have
+ * those of bodies whose moduli differ far. */
 
 /* The adjoint problems of earlier loads on the same supports; start from {0}. */
 enum { OST_MOST_REACTIONS = 12 };
@@ -40,13 +41,15 @@ int ost_reactions_are_watched(const OstProblem *problem);
 OstStatus ost_reactions_by_statics(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                                    OstWatchedReaction *found);
 
-/* Collective. The errors of mean stresses; `kept` as below, or NULL. */
+/* Collective. The same of mean stresses; `imbalance`: 3 × owned_nodes, internal forces less loads; the others
+ * as below. */
 OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
-                                 const double *u, OstReactions *kept, OstWatchedReaction *found);
+                                 const double *u, const double *imbalance, const double *tet_error, OstReactions *kept,
+                                 OstWatchedReaction *found);
 
-/* Collective. What is to be added to each watched reaction, and its error: found (one for each quantity watched) is
- * filled for those that are known. `relative`: the error of u in the norm of the energy, and tet_error each tet's share
- * of its square. What is found for this load is kept for the next, unless `kept` is NULL. */
+/* Collective. What is to be added to each watched reaction and mean stress, and its error: found (one for each quantity
+ * watched) is filled for those that are known. `relative`: the error of u in the norm of the energy, and tet_error each
+ * tet's share of its square. What is found for this load is kept for the next, unless `kept` is NULL. */
 OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
                              const double *u, double relative, const double *tet_error, OstReactions *kept,
                              OstWatchedReaction *found);
