@@ -242,7 +242,7 @@ OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets)
     const OstCellKind kind[3] = {OST_CELL_POINT, quadratic ? OST_CELL_LINE3 : OST_CELL_LINE2,
                                  quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3};
     leave_out_lines(cells, quadratic);
-    OST_TRY(ost_cells_cover_faces(cells, tets));
+    OST_TRY(ost_cells_make_faces(cells, tets));
     OST_TRY(OST_NEW(cells->ctx, &cells->chunk->boundaries, 0));
     for (int dimension = 2; dimension >= 0; dimension--) {
         OST_TRY(add_groups(cells, kind[dimension]));
