@@ -137,7 +137,8 @@ OstStatus ost_bisection_pair(OstBisection *bisection, int count, const OstPeriod
         memcpy(bisection->pair, pair, (size_t)count * sizeof *pair);
         for (OstLocal t = 0; t < mesh->tet_count; t++)
             bisection->tag[t] = first_tag(mesh, periods, t);
-    }
+    } else
+        OST_FREE(bisection->pair);
     ost_periods_destroy(&periods);
     ost_ledger_leave(bisection->ctx);
     return status;
