@@ -19,13 +19,28 @@ void ost_periods_destroy(OstPeriods **periods)
 {
     if (!*periods)
         return;
-    OST_FREE((*periods)->leads, (*periods)->follows, (*periods)->node);
+    OST_FREE((*periods)->leads, (*periods)->follows, (*periods)->place, (*periods)->node);
     OST_FREE(*periods);
 }
 
-/* Marks the owned nodes of a boundary, and finds their mean. */
-static OstStatus mark_side(const OstMesh *mesh, const char *name, uint32_t bit, uint32_t *marks, double mean[3])
+static void place_nodes(const OstMesh *mesh, double *place)
 {
+    memcpy(place, mesh->coordinates, 3 * (size_t)mesh->node_count * sizeof *place);
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
+        for (int e = 0; e < mesh->nodes_per_tet - 4; e++) {
+            const double *a = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][0]];
+            const double *b = mesh->coordinates + 3 * (size_t)nodes[ost_tet_edge[e][1]];
+            for (size_t d = 0; d < 3; d++)
+                place[3 * (size_t)nodes[4 + e] + d] = 0.5 * a[d] + 0.5 * b[d];
+        }
+    }
+}
+
+/* Marks the owned nodes of a boundary, and finds their mean. */
+static OstStatus mark_side(const OstPeriods *periods, const char *name, uint32_t bit, uint32_t *marks, double mean[3])
+{
+    const OstMesh *mesh = periods->mesh;
     const int b = ost_mesh_find_boundary(mesh, name);
     double sums[4] = {0.0};
     if (b < 0)
@@ -37,7 +52,7 @@ static OstStatus mark_side(const OstMesh *mesh, const char *name, uint32_t bit, 
         if (marks[n] & bit) {
             sums[3] += 1.0;
             for (size_t k = 0; k < 3; k++)
-                sums[k] += mesh->coordinates[3 * (size_t)n + k];
+                sums[k] += periods->place[3 * (size_t)n + k];
         }
     OST_TRY(ost_sum(mesh->ctx, 4, sums));
     if (!(sums[3] > 0.0))
@@ -52,8 +67,8 @@ static OstStatus mark_sides(OstPeriods *periods, const OstPeriodicPair *pair)
     const OstMesh *mesh = periods->mesh;
     for (int p = 0; p < periods->count; p++) {
         double from[3], to[3];
-        OST_TRY(mark_side(mesh, pair[p].leads, 1U << p, periods->leads, from));
-        OST_TRY(mark_side(mesh, pair[p].follows, 1U << p, periods->follows, to));
+        OST_TRY(mark_side(periods, pair[p].leads, 1U << p, periods->leads, from));
+        OST_TRY(mark_side(periods, pair[p].follows, 1U << p, periods->follows, to));
         for (int i = 0; i < 3; i++)
             periods->period[p][i] = to[i] - from[i];
         if (!(ost_norm3(periods->period[p]) > periods->within))
@@ -85,7 +100,8 @@ static OstStatus gather_nodes(OstPeriods *periods)
         node->number = mesh->node_number[n];
         node->label = mesh->node_label[n];
         node->follows = periods->follows[n] != 0;
-        memcpy(node->x, mesh->coordinates + 3 * (size_t)n, sizeof node->x);
+        memcpy(node->x, periods->place + 3 * (size_t)n, sizeof node->x);
+        memcpy(node->at, mesh->coordinates + 3 * (size_t)n, sizeof node->at);
     }
     const OstStatus status =
         ost_gather_items(mesh->ctx, sizeof *mine, mine, count, "a periodic pair has too many vertices",
@@ -102,8 +118,10 @@ static OstStatus fill(OstPeriods *periods, const OstPeriodicPair *pair)
     double low[3], high[3];
     OstStatus status = OST_NEW(mesh->ctx, &periods->leads, mesh->node_count);
     OST_THEN(OST_NEW(mesh->ctx, &periods->follows, mesh->node_count));
+    OST_THEN(OST_NEW(mesh->ctx, &periods->place, 3 * (size_t)mesh->node_count));
     OST_TRY(ost_agree(mesh->ctx, status));
     OST_TRY(ost_mesh_bounds(mesh, low, high));
+    place_nodes(mesh, periods->place);
     periods->within = relative_within * ost_norm3((double[3]){high[0] - low[0], high[1] - low[1], high[2] - low[2]});
     OST_TRY(mark_sides(periods, pair));
     return gather_nodes(periods);

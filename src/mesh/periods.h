@@ -5,9 +5,11 @@
 #include "mesh/mesh_data.h"
 #include "orthostat/refine.h"
 
-/* A node of a leading boundary, of any rank. */
+/* A node of a leading boundary, of any rank. Mid-edge nodes are known by the place halfway between the edge's ends:
+ * where an edge is made straight on one side alone, they still are each other's images. */
 typedef struct OstPeriodicNode {
-    double x[3];
+    double x[3];  /* by which it is known */
+    double at[3]; /* where it is */
     OstGlobal number, label;
     int follows; /* is it on a boundary that follows, too? */
 } OstPeriodicNode;
@@ -18,6 +20,7 @@ typedef struct OstPeriods {
     const OstMesh *mesh;
     int count;
     double period[OST_MOST_PERIODS][3]; /* from the leading boundary to the one that follows */
+    double *place;                      /* 3 × node_count: by which each node is known */
     double within;                      /* how far a node may be from its place */
     uint32_t *leads, *follows;          /* node_count: bits of the pairs */
     OstLocal nodes;
@@ -32,7 +35,8 @@ void ost_periods_destroy(OstPeriods **periods);
 /* Local. Where a place is once it has gone back by the periods of some pairs. */
 void ost_periods_back(const OstPeriods *periods, uint32_t pairs, const double x[3], double back[3]);
 
-/* Local. The node of a leading boundary at a place, one that follows none if there are several; or NULL. */
+/* Local. The node of a leading boundary that is known by a place, one that follows none if there are several; or NULL.
+ */
 const OstPeriodicNode *ost_periods_find(const OstPeriods *periods, const double x[3]);
 
 /* Local. The first of `count` structs of `size` bytes that begin with a place, sorted by its x, whose x is not less

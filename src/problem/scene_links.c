@@ -237,7 +237,7 @@ static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *c
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
     const OstMesh *mesh = periods->mesh;
-    const double *x = mesh->coordinates + 3 * (size_t)node;
+    const double *x = periods->place + 3 * (size_t)node;
     double target[3], strain[9], offset[3];
     ost_periods_back(periods, periods->follows[node], x, target);
     const double away[3] = {x[0] - target[0], x[1] - target[1], x[2] - target[2]};
@@ -253,7 +253,7 @@ static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *c
     ost_apply3(strain, away, offset);
     OstLeader leader = {.number = leads->number};
     memcpy(leader.weight, identity, sizeof identity);
-    return ost_links_add(links, node, 1, &leader, leads->x, offset);
+    return ost_links_add(links, node, 1, &leader, leads->at, offset);
 }
 
 static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)

@@ -176,12 +176,12 @@ static void load_point(Load *load, const Leaf *leaf, OstLocal point, OstKey key,
                      load->value + (size_t)item * (size_t)load->width);
 }
 
-/* Where a vertex that is not on the old curve is, and edges at it are straight. */
+/* Where a vertex is, on the old curve or not; edges at one that is put halfway are straight. */
 static void straighten(Load *load, OstLocal point, OstLocal p, OstLocal q)
 {
     const ForestVertex *from = &load->forest->vertex[p], *to = &load->forest->vertex[q];
     double *x = load->value + 3 * (size_t)(load->place[point] - 1);
-    for (int d = 0; d < 3 && !load->old && (from->flat || to->flat); d++)
+    for (int d = 0; d < 3 && !load->old && (p == q || from->flat || to->flat); d++)
         x[d] = 0.5 * from->x[d] + 0.5 * to->x[d];
 }
 

@@ -43,6 +43,7 @@ typedef struct ForestVertex {
     int holder;              /* the rank that puts it into the new mesh; -1 for a node of the old mesh */
     char shared;             /* may other ranks have tets with it? */
     uint32_t leads, follows; /* the periodic pairs on whose boundaries it lies (mesh/periods.h) */
+    OstGlobal leader;        /* the label of its image on the boundaries that lead; 0: it follows none */
     char flat;               /* is it put halfway between its ends, as tets would turn over? (flat.c) */
     double x[3];
 } ForestVertex;
@@ -90,6 +91,10 @@ OstStatus ost_forest_grow(Forest *forest, const unsigned char *times);
 
 /* Collective, once tets meet. Wants edges to be cut whose images are; how many more than before, on all ranks. */
 OstStatus ost_forest_want_images(Forest *forest, OstGlobal *wanted);
+
+/* Collective. Puts new vertices on boundaries that follow where their images on those that lead are, unless they are
+ * there to rounding. */
+OstStatus ost_forest_follow(Forest *forest);
 
 /* Collective, once it has grown. Puts new vertices halfway between the ends of their edges where straight leaves would
  * turn over, and warns. */

@@ -7,6 +7,7 @@
 #include "mesh/periods.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Periodic pairs: an edge is cut where its image on the opposite boundary is. An edge is known by the place halfway
  * between its ends. */
@@ -17,10 +18,11 @@ typedef struct Image {
     int pair, follows; /* on the side that follows? */
 } Image;
 
+/* Both begin with a place. */
 static int compare(const void *a, const void *b)
 {
-    const Image *p = a, *q = b;
-    return (p->x[0] > q->x[0]) - (p->x[0] < q->x[0]);
+    const double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
 }
 
 static void halfway(const Forest *forest, const OstLocal ends[2], double x[3])
@@ -98,5 +100,69 @@ OstStatus ost_forest_want_images(Forest *forest, OstGlobal *wanted)
     }
     OST_FREE(mine, all);
     OST_THEN(ost_sum_numbers(forest->ctx, 1, wanted));
+    return status;
+}
+
+/* --- where the new vertices are --- */
+
+/* A new vertex that leads and follows none. */
+typedef struct Leader {
+    double x[3];  /* halfway between its edge's ends */
+    double at[3]; /* where it is */
+    OstGlobal label;
+    int flat;
+} Leader;
+
+static OstStatus list_leaders(const Forest *forest, OstLocal *count, Leader **leader)
+{
+    for (OstLocal n = forest->mesh->node_count; n < forest->vertex_count; n++) {
+        const ForestVertex *vertex = &forest->vertex[n];
+        if (vertex->holder != ost_rank(forest->ctx) || !vertex->leads || vertex->follows)
+            continue;
+        OST_TRY(FOREST_ROOM(forest, *count, leader));
+        Leader *one = &(*leader)[(*count)++];
+        *one = (Leader){.label = vertex->label, .flat = vertex->flat};
+        halfway(forest, vertex->ends, one->x);
+        memcpy(one->at, vertex->x, sizeof one->at);
+    }
+    return OST_SUCCESS;
+}
+
+static void follow(Forest *forest, ForestVertex *vertex, OstLocal count, const Leader *leader)
+{
+    static const double nowhere[3] = {0.0};
+    const double within = forest->periods->within;
+    double middle[3], back[3], shift[3];
+    halfway(forest, vertex->ends, middle);
+    ost_periods_back(forest->periods, vertex->follows, middle, back);
+    ost_periods_back(forest->periods, vertex->follows, nowhere, shift);
+    for (OstLocal i = ost_first_by_x(count, sizeof *leader, leader, back[0] - within);
+         i < count && leader[i].x[0] <= back[0] + within; i++) {
+        if (!ost_is_same_place(leader[i].x, back, within))
+            continue;
+        vertex->leader = leader[i].label;
+        vertex->flat = (char)leader[i].flat;
+        const double x[3] = {leader[i].at[0] - shift[0], leader[i].at[1] - shift[1], leader[i].at[2] - shift[2]};
+        if (!ost_is_same_place(vertex->x, x, within))
+            memcpy(vertex->x, x, sizeof x);
+    }
+}
+
+/* Ends come before what cuts their edge. */
+OstStatus ost_forest_follow(Forest *forest)
+{
+    Leader *mine = NULL, *all = NULL;
+    OstLocal count = 0, total = 0;
+    if (!forest->periods)
+        return OST_SUCCESS;
+    OstStatus status = ost_agree(forest->ctx, list_leaders(forest, &count, &mine));
+    OST_THEN(ost_gather_items(forest->ctx, sizeof *mine, mine, count, "too many edges of periodic pairs are cut",
+                              (void **)&all, &total));
+    if (status == OST_SUCCESS && total > 0)
+        qsort(all, (size_t)total, sizeof *all, compare);
+    for (OstLocal n = forest->mesh->node_count; status == OST_SUCCESS && n < forest->vertex_count; n++)
+        if (forest->vertex[n].follows)
+            follow(forest, &forest->vertex[n], total, all);
+    OST_FREE(mine, all);
     return status;
 }
