@@ -109,8 +109,7 @@ OstStatus ost_forest_want_images(Forest *forest, OstGlobal *wanted)
 typedef struct Leader {
     double x[3];  /* halfway between its edge's ends */
     double at[3]; /* where it is */
-    OstGlobal label;
-    int flat;
+    OstGlobal label, flat;
 } Leader;
 
 static OstStatus list_leaders(const Forest *forest, OstLocal *count, Leader **leader)
