@@ -166,6 +166,10 @@ A, S4
 1
 *SURFACE, NAME=OTHER
 B,
+*ELSET, ELSET=FRONT
+1, 3
+*SURFACE, NAME=ONCE
+FRONT
 *SURFACE, NAME=ALL, COMBINE=UNION
 FREE, OTHER
 *TIE, NAME=t
@@ -186,7 +190,7 @@ def faces(name, text):
 TOP = 3 ** 0.5 / 2
 check(faces("free.inp", FREE) == {"FREE": (3, 1.5), "SHELLS": (1, 0.5), "MIXED": (4, round(3 * TOP + 0.5, 6)),
                                   "OTHER": (3, round(3 * TOP, 6)), "SOME": (3, 1.5), "BOTH": (1, 0.5),
-                                  "ALL": (6, round(3 * TOP + 1.5, 6)), "SKIN": (1, 0.5)},
+                                  "ALL": (6, round(3 * TOP + 1.5, 6)), "ONCE": (3, 1.5), "FRONT": (1, 0.5), "SKIN": (1, 0.5)},
       f"{faces('free.inp', FREE)}")
 
 # Of what is split into tets, of quadratic tets, and of instances that are moved and turned: outside alone.
