@@ -271,8 +271,9 @@ static int count_images(const OstMesh *mesh, int width, const OstGlobal *face, c
     return found;
 }
 
-/* Does each face of a boundary have its image on the opposite one? The mesh is on one rank. */
-static void check_pair(const OstMesh *mesh, const OstPeriodicPair *pair, const double period[3])
+/* Does each face of a boundary have its image on the opposite one, in its first `nodes` nodes? The mesh is on one rank.
+ */
+static void check_pair(const OstMesh *mesh, int nodes, const OstPeriodicPair *pair, const double period[3])
 {
     const OstBoundary *from = &mesh->boundaries[ost_mesh_find_boundary(mesh, pair->leads)];
     const OstBoundary *to = &mesh->boundaries[ost_mesh_find_boundary(mesh, pair->follows)];
@@ -281,7 +282,7 @@ static void check_pair(const OstMesh *mesh, const OstPeriodicPair *pair, const d
     for (OstLocal i = 0; i < from->count; i++) {
         int found = 0;
         for (OstLocal k = 0; k < to->count && !found; k++)
-            found = count_images(mesh, width, from->nodes + i * width, to->nodes + k * width, period) == width;
+            found = count_images(mesh, nodes, from->nodes + i * width, to->nodes + k * width, period) == nodes;
         assert_true(found);
     }
 }
@@ -306,10 +307,40 @@ static void periodic_pairs_stay_the_same(void **state)
             assert_true(twins.mesh->global_tets > tets);
             assert_close(total_volume(twins.mesh) / volume, 1.0, 1e-12);
             for (int p = 0; p < 3; p++)
-                check_pair(twins.serial, &pairs[p], period[p]);
+                check_pair(twins.serial, m < 6 ? 3 : 6, &pairs[p], period[p]);
         }
         end_twins(&twins);
     }
+}
+
+/* Edges within one side are curved, and straight on the opposite one. Coordinates are sums of powers of 2. */
+static OstMesh *make_uneven_block(OstContext *on)
+{
+    OstMesh *linear = mesh_of_block(on, 1.0, 1.0, 1.0, 2, 2, 2), *mesh = NULL;
+    assert_int_equal(ost_mesh_raise(linear, NULL, &mesh), OST_SUCCESS);
+    ost_mesh_destroy(&linear);
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        double *x = mesh->coordinates + 3 * n;
+        const int is_middle = fmod(4.0 * x[0], 2.0) != 0.0 || fmod(4.0 * x[2], 2.0) != 0.0;
+        if (x[1] == 1.0 && is_middle && x[0] > 0.0 && x[0] < 1.0 && x[2] > 0.0 && x[2] < 1.0)
+            x[0] += 0.03125;
+    }
+    return mesh;
+}
+
+/* New vertices of the side that follows are where those are that lead. */
+static void sides_that_are_curved_otherwise_keep_the_same_vertices(void **state)
+{
+    static const double point[3] = {0.5, 1.0, 0.5}, period[3] = {0.0, 1.0, 0.0};
+    Twins twins = {0};
+    start_twins(&twins, make_uneven_block);
+    assert_success(ost_bisection_pair(twins.bisection, 3, pairs));
+    assert_int_equal(ost_bisection_pair(twins.serially, 3, pairs), OST_SUCCESS);
+    for (int generation = 0; generation < 4; generation++) {
+        bisect_twins(&twins, point, 0.6, NULL);
+        check_pair(twins.serial, 3, &pairs[1], period);
+    }
+    end_twins(&twins);
 }
 
 static void pairs_are_told_once_and_by_name(void **state)
@@ -478,6 +509,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(pieces_that_would_turn_over_are_straight),
     cmocka_unit_test(shapes_of_an_irregular_mesh_stay_bounded),
     cmocka_unit_test(periodic_pairs_stay_the_same),
+    cmocka_unit_test(sides_that_are_curved_otherwise_keep_the_same_vertices),
     cmocka_unit_test(pairs_are_told_once_and_by_name),
     cmocka_unit_test(regions_axes_points_and_curves_are_inherited),
     cmocka_unit_test(fields_are_carried),
