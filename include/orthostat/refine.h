@@ -70,11 +70,21 @@ typedef struct OstBisection OstBisection;
 OstStatus ost_bisection_create(const OstMesh *mesh, OstBisection **bisection);
 void ost_bisection_destroy(OstBisection **bisection);
 
+/* Two boundaries of faces whose meshes are the same but for a shift, by name. */
+typedef struct OstPeriodicPair {
+    const char *leads, *follows;
+} OstPeriodicPair;
+
+/* Collective, before anything is cut. Boundaries of these pairs are cut alike, and keep the same mesh but for their
+ * shift; at most 32 pairs, whose names are the caller's and live as long as the bisection. Raises OST_INVALID_INPUT for
+ * boundaries that are not there or not of faces. */
+OstStatus ost_bisection_pair(OstBisection *bisection, int count, const OstPeriodicPair *pair);
+
 /* Collective. Cuts each of this rank's own tets, and its children, at least as often as `times` says (0 to 60: 3 halve
  * all edges); the new mesh is partitioned anew. A quadratic mesh gives a quadratic one: what is curved stays as it is,
- * unless a shape says better; but where pieces of a coarse curved tet would turn or fold over, they have straight edges,
- * and a warning says so. The new mesh, the caller's, is the one that is refined next. Raises OST_INVALID_INPUT if a tet
- * would be inverted or fold over yet, OST_LIMIT_EXCEEDED where labels or local numbers overflow. */
+ * unless a shape says better; but where pieces of a coarse curved tet would turn or fold over, they have straight
+ * edges, and a warning says so. The new mesh, the caller's, is the one that is refined next. Raises OST_INVALID_INPUT
+ * if a tet would be inverted or fold over yet, OST_LIMIT_EXCEEDED where labels or local numbers overflow. */
 OstStatus ost_bisection_refine(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                                OstMesh **fine);
 

@@ -2,6 +2,7 @@
 #include "adapt/stage.h"
 
 #include "adapt/mark_ties.h"
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -38,12 +39,48 @@ void ost_stage_destroy(OstStage **stage)
     OST_FREE(*stage);
 }
 
+/* Adds the pairs of a constraint, whose boundaries must grow with the mesh. */
+static OstStatus add_pairs(const OstStage *stage, const OstConstraint *constraint, int *count, OstPeriodicPair *pair)
+{
+    const OstMesh *mesh = stage->scene->mesh;
+    for (int p = 0; p < constraint->pair_count; p++) {
+        const OstSelection on = {.kind = OST_SELECT_BOUNDARY,
+                                 .boundaries = {2, (char **)constraint->pair[p]},
+                                 .place = {constraint->line, 1}};
+        OST_TRY(ost_select_check_names(&stage->c, mesh, &on));
+        for (int side = 0; side < 2; side++)
+            if (mesh->boundaries[ost_mesh_find_boundary(mesh, constraint->pair[p][side])].dimension != 2)
+                return ost_select_raise(&stage->c, &on,
+                                        "boundary '%.80s' has no faces, as a periodic pair needs where an accuracy is "
+                                        "asked for; name one of faces",
+                                        constraint->pair[p][side]);
+        pair[(*count)++] = (OstPeriodicPair){constraint->pair[p][0], constraint->pair[p][1]};
+    }
+    return OST_SUCCESS;
+}
+
+/* Boundaries of periodic pairs are to be cut alike. */
+static OstStatus keep_periods(const OstStage *stage)
+{
+    const OstCase *c = &stage->c;
+    OstPeriodicPair *pair = NULL;
+    int count = 0;
+    OstStatus status = ost_agree(c->ctx, OST_NEW(c->ctx, &pair, 3 * c->constraint_count));
+    for (int k = 0; k < c->constraint_count; k++)
+        if (c->constraints[k].kind == OST_CONSTRAIN_PERIODIC)
+            OST_THEN(add_pairs(stage, &c->constraints[k], &count, pair));
+    OST_THEN(ost_bisection_pair(stage->bisection, count, pair));
+    OST_FREE(pair);
+    return status;
+}
+
 OstStatus ost_stage_open(OstStage *stage, const OstCase *c)
 {
     stage->c = *c;
     OST_TRY(ost_scene_create(&stage->c, &stage->scene));
     ost_ledger_enter(c->ctx, OST_EFFECT_ADAPTIVITY);
-    const OstStatus status = ost_bisection_create(stage->scene->mesh, &stage->bisection);
+    OstStatus status = ost_bisection_create(stage->scene->mesh, &stage->bisection);
+    OST_THEN(keep_periods(stage));
     ost_ledger_leave(c->ctx);
     return status;
 }

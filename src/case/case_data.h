@@ -348,7 +348,7 @@ OstStatus ost_select_faces(const OstCase *c, const OstMesh *mesh, const OstSelec
 OstStatus ost_case_check_finer(const OstCase *c, const char *to);
 
 /* Local. Do supports, springs and loads act on the same part of the body on finer meshes? Not on what a box, a sphere
- * or a cylinder selects, nor on each vertex of a boundary; nor where faces are tied, periodic or moved in the mean. */
+ * or a cylinder selects, nor on each vertex of a boundary; nor where faces are tied or moved in the mean. */
 int ost_case_stays(const OstCase *c);
 
 #endif

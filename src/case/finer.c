@@ -32,8 +32,8 @@ int ost_case_stays(const OstCase *c)
     int keeps = 1;
     for (int k = 0; k < c->constraint_count; k++) {
         const OstConstraint *constraint = &c->constraints[k];
-        keeps &= constraint->kind != OST_CONSTRAIN_TIED && constraint->kind != OST_CONSTRAIN_PERIODIC &&
-                 stays(&constraint->on, 0);
+        keeps &= constraint->kind == OST_CONSTRAIN_PERIODIC ||
+                 (constraint->kind != OST_CONSTRAIN_TIED && stays(&constraint->on, 0));
     }
     for (int k = 0; k < c->spring_count; k++)
         keeps &= stays(&c->springs[k].on, c->springs[k].kind == OST_SPRING_POINT);
@@ -61,20 +61,6 @@ OstStatus ost_case_check_finer(const OstCase *c, const char *to)
     return OST_SUCCESS;
 }
 
-/* Only some tets are cut, and opposite faces of periodic pairs do not go along with that. */
-static OstStatus check_cut(const OstCase *c)
-{
-    OST_TRY(ost_case_check_finer(c, "To ask for an accuracy"));
-    for (int k = 0; k < c->constraint_count; k++)
-        if (c->constraints[k].kind == OST_CONSTRAIN_PERIODIC)
-            return OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                             "%s:%d: an accuracy cannot be asked for with periodic pairs: refined where the error is, "
-                             "opposite boundaries no longer match. Leave out relative_error and set mesh: {refine: 1}, "
-                             "which splits all tets, until the error that is stated is small enough",
-                             c->path, c->constraints[k].line);
-    return OST_SUCCESS;
-}
-
 OstStatus ost_settle_accuracy(OstCase *c)
 {
     if (!c->asks_error || c->path_steps > 0)
@@ -85,5 +71,5 @@ OstStatus ost_settle_accuracy(OstCase *c)
             ost_has_one_stiff_mode(eigenvalues, OST_NEARLY_INCOMPRESSIBLE))
             c->order = 2;
     }
-    return check_cut(c);
+    return ost_case_check_finer(c, "To ask for an accuracy");
 }

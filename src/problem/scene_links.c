@@ -3,11 +3,12 @@
 
 #include "assembly/links/face_search.h"
 #include "assembly/spread.h"
+#include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
-#include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "mesh/periods.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,8 +17,8 @@
 
 static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 
-/* Of the body's diagonal: how far a tied vertex may be from its faces, and how far a periodic one from its place. */
-static const double tied_within = 1e-3, periodic_within = 1e-6;
+/* Of the body's diagonal: how far a tied vertex may be from its faces. */
+static const double tied_within = 1e-3;
 
 /* A weight below this is rounding. */
 static const double no_weight = 1e-12;
@@ -217,155 +218,54 @@ static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint,
 
 /* --- periodic pairs --- */
 
-typedef struct Corner {
-    OstGlobal number;
-    double x[3];
-} Corner;
-
-/* The cell: its periods, and which boundaries' followers each node is on. */
-typedef struct Cell {
-    const OstScene *scene;
-    const OstConstraint *constraint;
-    double period[3][3];
-    unsigned char *leads, *follows; /* node_count: bits of the pairs */
-    Corner *corner;                 /* leaders that follow nobody, of all ranks, by x */
-    OstLocal corners;
-    double within;
-} Cell;
-
-/* Marks the nodes of a boundary, and finds their mean. */
-static OstStatus mark_side(const Cell *cell, int pair, int side, unsigned char *marks, double mean[3])
+static OstStatus find_periods(const OstScene *scene, const OstConstraint *constraint, OstPeriods **periods)
 {
-    const OstMesh *mesh = cell->scene->mesh;
-    OstSelection on = {.kind = OST_SELECT_BOUNDARY,
-                       .boundaries = {1, (char **)&cell->constraint->pair[pair][side]},
-                       .place = {cell->constraint->line, 1}};
-    double sums[4] = {0.0};
-    OstLocal count = 0;
-    OstLocal *nodes = NULL;
-    OST_TRY(ost_select_nodes(cell->scene->c, mesh, &on, &count, &nodes));
-    for (OstLocal i = 0; i < count; i++) {
-        marks[nodes[i]] |= (unsigned char)(1U << pair);
-        if (nodes[i] >= mesh->owned_nodes)
-            continue;
-        sums[3] += 1.0;
-        for (size_t k = 0; k < 3; k++)
-            sums[k] += mesh->coordinates[3 * (size_t)nodes[i] + k];
+    OstPeriodicPair pair[3];
+    for (int p = 0; p < constraint->pair_count; p++) {
+        const OstSelection on = {.kind = OST_SELECT_BOUNDARY,
+                                 .boundaries = {2, (char **)constraint->pair[p]},
+                                 .place = {constraint->line, 1}};
+        OST_TRY(ost_select_check_names(scene->c, scene->mesh, &on));
+        pair[p] = (OstPeriodicPair){constraint->pair[p][0], constraint->pair[p][1]};
     }
-    OST_FREE(nodes);
-    OST_TRY(ost_sum(mesh->ctx, 4, sums));
-    for (int k = 0; k < 3; k++)
-        mean[k] = sums[k] / sums[3];
-    return OST_SUCCESS;
-}
-
-static OstStatus mark_sides(Cell *cell)
-{
-    for (int p = 0; p < cell->constraint->pair_count; p++) {
-        double from[3], to[3];
-        OST_TRY(mark_side(cell, p, 0, cell->leads, from));
-        OST_TRY(mark_side(cell, p, 1, cell->follows, to));
-        for (int i = 0; i < 3; i++)
-            cell->period[p][i] = to[i] - from[i];
-        if (!(ost_norm3(cell->period[p]) > cell->within))
-            return OST_RAISE(cell->scene->ctx, OST_INVALID_INPUT,
-                             "boundaries '%.60s' and '%.60s' lie in the same place; name opposite ones",
-                             cell->constraint->pair[p][0], cell->constraint->pair[p][1]);
-    }
-    return OST_SUCCESS;
-}
-
-static int compare_corners(const void *a, const void *b)
-{
-    const double x = ((const Corner *)a)->x[0];
-    const double y = ((const Corner *)b)->x[0];
-    return (x > y) - (x < y);
-}
-
-static OstStatus gather_corners(Cell *cell)
-{
-    const OstMesh *mesh = cell->scene->mesh;
-    Corner *mine = NULL;
-    OstLocal count = 0;
-    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &mine, mesh->owned_nodes)));
-    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        if (!cell->leads[n] || cell->follows[n])
-            continue;
-        mine[count].number = mesh->node_number[n];
-        memcpy(mine[count++].x, mesh->coordinates + 3 * (size_t)n, sizeof mine->x);
-    }
-    const OstStatus status =
-        ost_gather_items(mesh->ctx, sizeof *mine, mine, count, "a periodic pair has too many vertices",
-                         (void **)&cell->corner, &cell->corners);
-    OST_FREE(mine);
-    if (status == OST_SUCCESS && cell->corners > 0)
-        qsort(cell->corner, (size_t)cell->corners, sizeof *cell->corner, compare_corners);
-    return status;
-}
-
-static const Corner *find_corner(const Cell *cell, const double x[3])
-{
-    OstLocal low = 0, high = cell->corners;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (cell->corner[middle].x[0] < x[0] - cell->within)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (; low < cell->corners && cell->corner[low].x[0] <= x[0] + cell->within; low++) {
-        const double *at = cell->corner[low].x;
-        if (fabs(at[1] - x[1]) <= cell->within && fabs(at[2] - x[2]) <= cell->within)
-            return &cell->corner[low];
-    }
-    return NULL;
+    return ost_periods_create(scene->mesh, constraint->pair_count, pair, periods);
 }
 
 /* A follower of several pairs, on an edge or a corner of the cell, is as many periods away from its leader. */
-static OstStatus link_periodic(const Cell *cell, OstLocal node, double factor, OstLinks *links)
+static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *constraint, OstLocal node, double factor,
+                               OstLinks *links)
 {
     static const int place[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-    const OstMesh *mesh = cell->scene->mesh;
-    const double *x = mesh->coordinates + 3 * (size_t)node;
-    double away[3] = {0.0}, strain[9], offset[3];
-    for (int p = 0; p < cell->constraint->pair_count; p++)
-        for (int i = 0; i < 3 && cell->follows[node] >> p & 1; i++)
-            away[i] += cell->period[p][i];
-    const double target[3] = {x[0] - away[0], x[1] - away[1], x[2] - away[2]};
-    const Corner *corner = find_corner(cell, target);
-    if (!corner)
+    const OstMesh *mesh = periods->mesh;
+    const double *x = periods->place + 3 * (size_t)node;
+    double target[3], strain[9], offset[3];
+    ost_periods_back(periods, periods->follows[node], x, target);
+    const double away[3] = {x[0] - target[0], x[1] - target[1], x[2] - target[2]};
+    const OstPeriodicNode *leads = ost_periods_find(periods, target);
+    if (!leads || leads->follows)
         return OST_RAISE(
-            cell->scene->ctx, OST_INVALID_INPUT,
+            mesh->ctx, OST_INVALID_INPUT,
             "vertex %lld at (%g, %g, %g) has no counterpart at (%g, %g, %g): both boundaries of a periodic "
             "pair need the same mesh",
             (long long)mesh->node_label[node], x[0], x[1], x[2], target[0], target[1], target[2]);
     for (int i = 0; i < 9; i++)
-        strain[i] = factor * cell->constraint->strain[place[i]];
+        strain[i] = factor * constraint->strain[place[i]];
     ost_apply3(strain, away, offset);
-    OstLeader leader = {.number = corner->number};
+    OstLeader leader = {.number = leads->number};
     memcpy(leader.weight, identity, sizeof identity);
-    return ost_links_add(links, node, 1, &leader, corner->x, offset);
+    return ost_links_add(links, node, 1, &leader, leads->at, offset);
 }
 
 static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)
 {
-    const OstMesh *mesh = scene->mesh;
-    Cell cell = {.scene = scene, .constraint = constraint};
-    double diagonal = 0.0;
+    OstPeriods *periods = NULL;
     links->periodic = 1;
-    OstStatus status = OST_NEW(scene->ctx, &cell.leads, mesh->node_count);
-    OST_THEN(OST_NEW(scene->ctx, &cell.follows, mesh->node_count));
-    status = ost_agree(scene->ctx, status);
-    OST_THEN(find_diagonal(mesh, &diagonal));
-    cell.within = periodic_within * diagonal;
-    OST_THEN(mark_sides(&cell));
-    OST_THEN(gather_corners(&cell));
-    for (OstLocal n = 0; n < mesh->owned_nodes && status == OST_SUCCESS; n++)
-        if (cell.follows[n])
-            status = link_periodic(&cell, n, factor, links);
-    status = ost_agree(scene->ctx, status);
-    OST_FREE(cell.leads, cell.follows, cell.corner);
-    return status;
+    OstStatus status = find_periods(scene, constraint, &periods);
+    for (OstLocal n = 0; status == OST_SUCCESS && n < scene->mesh->owned_nodes; n++)
+        if (periods->follows[n])
+            status = link_periodic(periods, constraint, n, factor, links);
+    ost_periods_destroy(&periods);
+    return ost_agree(scene->ctx, status);
 }
 
 /* --- all of them --- */

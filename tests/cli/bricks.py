@@ -4,7 +4,8 @@ import itertools
 
 
 def brick_mesh(path, bricks):
-    """Bricks (name, origin, size, divisions, regions of the layers along z) in one Gmsh file, each with the boundaries name_xmin ..."""
+    """Bricks (name, origin, size, divisions, regions of the layers along z, or a function of the cell) in one Gmsh file, each
+    with the boundaries name_xmin ..."""
     nodes, tets, faces, groups = [], [], [], {}
     for name, origin, size, (nx, ny, nz), regions in bricks:
         first = len(nodes)
@@ -12,7 +13,8 @@ def brick_mesh(path, bricks):
                   for place in itertools.product(range(nx + 1), range(ny + 1), range(nz + 1))]
         sides = {}
         for cell in itertools.product(range(nx), range(ny), range(nz)):
-            region = groups.setdefault((3, regions[cell[2] * len(regions) // nz]), len(groups) + 1)
+            material = regions(cell) if callable(regions) else regions[cell[2] * len(regions) // nz]
+            region = groups.setdefault((3, material), len(groups) + 1)
             for order in itertools.permutations(range(3)):
                 corner, tet = list(cell), []
                 for k in (None, *order):

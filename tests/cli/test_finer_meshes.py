@@ -49,9 +49,6 @@ for changes, words in (({"load": "point_force: [0, 0, -1e4]"}, ("beam.yaml:4: a 
 done = start("solve", on="{nearest: [4, 1, 1]}", load="point_force: [0, 0, -1e5]", more="accuracy: {relative_error: 0.1}")
 check(done.exit_code == 1 and "8 times the unknowns the error is" in done.errors and "total_force" in done.errors, done.errors)
 
-done = start("check", more="accuracy: {relative_error: 0.1}", support=", {periodic: [[ymin, ymax]]}")
-check(done.exit_code == 2 and "periodic" in done.errors and "refine: 1" in done.errors, done.errors)
-
 # The border of a box in the middle of faces: it holds more of them on each finer mesh.
 done, _ = solve("0.005, of: tip", on="{box: {min: [1.5, -1, 0.9], max: [2.5, 2, 1.1]}}")
 check("beam.yaml:4: the faces that this load selects cover an area of 0 on the first mesh and 0." in done.errors and

@@ -234,11 +234,36 @@ def a_layered_cell_has_the_stiffness_of_a_laminate():
         near(watched(text.replace("STRAIN", "zx: 0.005"), folder, (1,))["shear"], 0.01 * shear, 1e-8, "the shear modulus")
 
 
+# Two cells, whose lowest and highest edges alone are a pair.
+ENDS = "*NODE\n" + "".join(f"{n + 1}, {(0, 1, 1, 0)[n % 4]}, {(0, 0, 1, 1)[n % 4]}, {n // 4}\n" for n in range(12)) + """
+*ELEMENT, TYPE=C3D8, ELSET=soft
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=stiff
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*ELSET, ELSET=both
+1, 2
+*SURFACE, NAME=_ymin
+both, S3
+*SURFACE, NAME=_xmax
+both, S4
+*SURFACE, NAME=_ymax
+both, S5
+*SURFACE, NAME=_xmin
+both, S6
+*NSET, NSET=_zmin
+1, 2
+*NSET, NSET=_zmax
+9, 10
+"""
+
+
 def what_cannot_be_is_refused():
     folder = new_folder()
     brick_mesh(os.path.join(folder, "layers.msh"), [("", (0, 0, 0), (1, 1, 1), (2, 3, 4), ("soft", "stiff"))])
     brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 2, 2), "a"), ("b", (2.1, 0, 0), (2, 1, 1), (2, 3, 3), "b")])
     cell = CELL.replace("ORDER", "1").replace("STRAIN", "zz: 0.01")
+    asks = cell.replace("relative_residual: 1e-10", "relative_error: 0.1")
+    write(folder, "ends.inp", ENDS)
     held = "{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}"
     tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
     for text, words in (
@@ -247,6 +272,8 @@ def what_cannot_be_is_refused():
             (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
             (cell + "large_rotation: on\n", "linear theory alone"),
+            (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
+            (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
             (tied.replace("b_xmin}, tied", "b_xmax}, tied"), "tolerance:"),
             (tied.replace("b_xmin}, tied", "a_xmax}, tied"), "this tie joins nothing"),

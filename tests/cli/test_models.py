@@ -1,8 +1,9 @@
 """Of a whole model of another program the mesh is read; what else moves the body is told, with the lines for the case file
 that do the same."""
+import os
 import re
 
-from program import check, new_folder, read_json, run, write
+from program import SOURCE, check, new_folder, read_json, run, write
 
 folder = new_folder()
 
@@ -139,8 +140,8 @@ run("mesh", "model.bdf", "--json", "model.json", folder=folder)
 check([(b["name"], b["count"]) for b in read_json(folder, "model.json")["boundaries"]] == [("rbe2-17", 2), ("rbe3-18", 2)],
       "the nodes of rigid elements")
 
-# A surface of shells has both of their sides where none is named; the free surface of solids is not made, and not named as a boundary.
-said = warnings("free.inp", """*NODE
+# A surface of shells has both of their sides where none is named, one of solids those of their faces that no other has.
+FREE = """*NODE
 1,0,0,0
 2,1,0,0
 3,0,1,0
@@ -156,10 +157,79 @@ said = warnings("free.inp", """*NODE
 A,
 *SURFACE, TYPE=ELEMENT, NAME=SHELLS
 SKIN
+*ELSET, ELSET=BOTH
+2, 3
+*SURFACE, NAME=MIXED
+BOTH
+*SURFACE, NAME=SOME
+A, S4
+1
+*SURFACE, NAME=OTHER
+B,
+*ELSET, ELSET=FRONT
+1, 3
+*SURFACE, NAME=ONCE
+FRONT
+*SURFACE, NAME=ALL, COMBINE=UNION
+FREE, OTHER
 *TIE, NAME=t
 FREE, SHELLS
+"""
+said = warnings("free.inp", FREE)
+check("SURFACE" not in said and told(said) == [
+    ("constraints", "{on: {boundary: FREE}, tied_to: {boundary: SHELLS}}")], said)
+
+
+def faces(name, text):
+    """The number and area of the faces of each boundary."""
+    warnings(name, text)
+    run("mesh", name, "--json", "free.json", folder=folder)
+    return {b["name"]: (b["count"], round(b["area"], 6)) for b in read_json(folder, "free.json")["boundaries"]}
+
+
+TOP = 3 ** 0.5 / 2
+check(faces("free.inp", FREE) == {"FREE": (3, 1.5), "SHELLS": (1, 0.5), "MIXED": (4, round(3 * TOP + 0.5, 6)),
+                                  "OTHER": (3, round(3 * TOP, 6)), "SOME": (3, 1.5), "BOTH": (1, 0.5),
+                                  "ALL": (6, round(3 * TOP + 1.5, 6)), "ONCE": (3, 1.5), "FRONT": (1, 0.5), "SKIN": (1, 0.5)},
+      f"{faces('free.inp', FREE)}")
+
+# Of what is split into tets, of quadratic tets, and of instances that are moved and turned: outside alone.
+CUBES = BAR.replace("*Orientation", "**").replace(", orientation=Grain", "").replace("*End Part", """*Node
+9, 0, 0, 2
+10, 1, 0, 2
+11, 1, 1, 2
+12, 0, 1, 2
+*Element, type=C3D8, elset=steel
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*Surface, name=bare
+wood,
+*End Part""")
+check(faces("cubes.inp", CUBES)["bare"] == (10, 5), f"{faces('cubes.inp', CUBES)}")
+said = faces("placed.inp", CUBES + """*Assembly, name=Both
+*Instance, name=A, part=Bar
+*End Instance
+*Instance, name=B, part=Bar
+5., 0., 0.
+5., 0., 0., 5., 0., 1., 30.
+*End Instance
+*Surface, name=outer
+A.steel,
+B.wood
+*Surface, name=least, trim=YES
+B.steel
+*End Assembly
 """)
-check("1 line of *SURFACE names no face" in said and told(said) == [
-    ("constraints", "{on: {boundary: ...}, tied_to: {boundary: SHELLS}}")], said)
-done = run("mesh", "free.inp", folder=folder)
-check(re.search(r"SHELLS +1 faces +area 0.5", done.output), done.output)
+check((said["A.bare"], said["B.bare"], said["outer"], said["least"]) == ((10, 5), (10, 5), (20, 10), (10, 5)), f"{said}")
+check("TRIM=YES is not read" in warnings("placed.inp", open(f"{folder}/placed.inp").read()), "a surface that is trimmed")
+
+quadratic = open(os.path.join(SOURCE, "tests", "formats", "exchange", "gmsh-quadratic.inp")).read()
+said = faces("quadratic.inp", quadratic + "*SURFACE, NAME=skin\nVolume1,\n")
+check(said["skin"] == (20, 5), f"{said}")
+
+# What is not made of others is told, with the way out.
+said = warnings("less.inp", FREE.replace("COMBINE=UNION", "COMBINE=DIFFERENCE"))
+check("COMBINE=DIFFERENCE is not read" in said and "write its faces" in said, said)
+done = run("mesh", write(folder, "none.inp", FREE.replace("FREE, OTHER", "FREE, MIXD")), folder=folder)
+check(done.exit_code == 2 and "no surface 'MIXD'" in done.errors, done.errors)
+said = warnings("edge.inp", FREE.replace("A, S4", "A, E1"))
+check("1 line of *SURFACE names no face" in said, said)

@@ -218,6 +218,147 @@ static void shapes_of_an_irregular_mesh_stay_bounded(void **state)
     end_twins(&twins);
 }
 
+/* --- periodic pairs --- */
+
+static const OstPeriodicPair pairs[] = {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}};
+static OstLocal cells[3]; /* of the periodic block */
+
+/* A block whose vertices are moved about, on opposite sides alike: these are not plane, and no two tets are alike but
+ * for those at the same place of a period. */
+static OstMesh *make_periodic_block(OstContext *on)
+{
+    const OstBlockShape shape = {{0.0, 0.0, 0.0}, {1.0, 1.2, 0.9}, {cells[0], cells[1], cells[2]}};
+    OstMeshChunk *chunk = NULL;
+    OstMesh *mesh = NULL;
+    assert_int_equal(ost_chunk_create_block(on, &shape, &chunk), OST_SUCCESS);
+    for (OstLocal n = 0; n < chunk->node_count; n++) {
+        const OstGlobal number = chunk->first_node + n, rows = number / (cells[2] + 1);
+        const OstGlobal at[3] = {rows / (cells[1] + 1) % cells[0], rows % (cells[1] + 1) % cells[1],
+                                 number % (cells[2] + 1) % cells[2]};
+        for (int d = 0; d < 3; d++) {
+            const double scatter = sin(12.9898 * (double)(at[0] + 7 * at[1] + 31 * at[2]) + 78.233 * d) * 43758.5453;
+            chunk->coordinates[3 * n + d] += 0.1 / (double)cells[d] * (scatter - floor(scatter));
+        }
+    }
+    assert_int_equal(ost_mesh_distribute(on, &chunk, &mesh), OST_SUCCESS);
+    return mesh;
+}
+
+static OstMesh *make_regular_block(OstContext *on)
+{
+    return mesh_of_block(on, 1.0, 1.2, 0.9, cells[0], cells[1], cells[2]);
+}
+
+static OstMesh *make_quadratic_block(OstContext *on)
+{
+    OstMesh *linear = make_periodic_block(on), *mesh = NULL;
+    assert_int_equal(ost_mesh_raise(linear, NULL, &mesh), OST_SUCCESS);
+    ost_mesh_destroy(&linear);
+    return mesh;
+}
+
+/* How many nodes of a face are those of another, moved by a period. */
+static int count_images(const OstMesh *mesh, int width, const OstGlobal *face, const OstGlobal *image,
+                        const double period[3])
+{
+    int found = 0;
+    for (int a = 0; a < width; a++)
+        for (int b = 0; b < width; b++) {
+            const double *x = mesh->coordinates + 3 * face[a], *y = mesh->coordinates + 3 * image[b];
+            found +=
+                fabs(y[0] - x[0] - period[0]) + fabs(y[1] - x[1] - period[1]) + fabs(y[2] - x[2] - period[2]) < 1e-12;
+        }
+    return found;
+}
+
+/* Does each face of a boundary have its image on the opposite one, in its first `nodes` nodes? The mesh is on one rank.
+ */
+static void check_pair(const OstMesh *mesh, int nodes, const OstPeriodicPair *pair, const double period[3])
+{
+    const OstBoundary *from = &mesh->boundaries[ost_mesh_find_boundary(mesh, pair->leads)];
+    const OstBoundary *to = &mesh->boundaries[ost_mesh_find_boundary(mesh, pair->follows)];
+    const int width = from->nodes_per_item;
+    assert_int_equal(from->count, to->count);
+    for (OstLocal i = 0; i < from->count; i++) {
+        int found = 0;
+        for (OstLocal k = 0; k < to->count && !found; k++)
+            found = count_images(mesh, nodes, from->nodes + i * width, to->nodes + k * width, period) == nodes;
+        assert_true(found);
+    }
+}
+
+/* Near places on all sides, by turns; where there is one cell, a tet has edges on both. */
+static void periodic_pairs_stay_the_same(void **state)
+{
+    static const double point[4][3] = {{0.0, 0.4, 0.3}, {1.0, 1.2, 0.9}, {0.6, 1.2, 0.3}, {0.5, 0.1, 0.0}};
+    static const double period[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.2, 0.0}, {0.0, 0.0, 0.9}};
+    static const OstLocal divisions[3][3] = {{1, 1, 1}, {1, 2, 3}, {4, 3, 4}};
+    OstMesh *(*const make[3])(OstContext *) = {make_periodic_block, make_regular_block, make_quadratic_block};
+    for (int m = 0; m < 9; m++) {
+        Twins twins = {0};
+        memcpy(cells, divisions[m % 3], sizeof cells);
+        start_twins(&twins, make[m / 3]);
+        assert_success(ost_bisection_pair(twins.bisection, 3, pairs));
+        assert_int_equal(ost_bisection_pair(twins.serially, 3, pairs), OST_SUCCESS);
+        const double volume = total_volume(twins.mesh);
+        for (int generation = 0; generation < 5; generation++) {
+            const OstGlobal tets = twins.mesh->global_tets;
+            bisect_twins(&twins, point[generation % 4], 0.9 * pow(0.8, generation), NULL);
+            assert_true(twins.mesh->global_tets > tets);
+            assert_close(total_volume(twins.mesh) / volume, 1.0, 1e-12);
+            for (int p = 0; p < 3; p++)
+                check_pair(twins.serial, m < 6 ? 3 : 6, &pairs[p], period[p]);
+        }
+        end_twins(&twins);
+    }
+}
+
+/* Edges within one side are curved, and straight on the opposite one. Coordinates are sums of powers of 2. */
+static OstMesh *make_uneven_block(OstContext *on)
+{
+    OstMesh *linear = mesh_of_block(on, 1.0, 1.0, 1.0, 2, 2, 2), *mesh = NULL;
+    assert_int_equal(ost_mesh_raise(linear, NULL, &mesh), OST_SUCCESS);
+    ost_mesh_destroy(&linear);
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        double *x = mesh->coordinates + 3 * n;
+        const int is_middle = fmod(4.0 * x[0], 2.0) != 0.0 || fmod(4.0 * x[2], 2.0) != 0.0;
+        if (x[1] == 1.0 && is_middle && x[0] > 0.0 && x[0] < 1.0 && x[2] > 0.0 && x[2] < 1.0)
+            x[0] += 0.03125;
+    }
+    return mesh;
+}
+
+/* New vertices of the side that follows are where those are that lead. */
+static void sides_that_are_curved_otherwise_keep_the_same_vertices(void **state)
+{
+    static const double point[3] = {0.5, 1.0, 0.5}, period[3] = {0.0, 1.0, 0.0};
+    Twins twins = {0};
+    start_twins(&twins, make_uneven_block);
+    assert_success(ost_bisection_pair(twins.bisection, 3, pairs));
+    assert_int_equal(ost_bisection_pair(twins.serially, 3, pairs), OST_SUCCESS);
+    for (int generation = 0; generation < 4; generation++) {
+        bisect_twins(&twins, point, 0.6, NULL);
+        check_pair(twins.serial, 3, &pairs[1], period);
+    }
+    end_twins(&twins);
+}
+
+static void pairs_are_told_once_and_by_name(void **state)
+{
+    static const OstPeriodicPair wrong = {"xmin", "xmas"};
+    static const double corner[3] = {0.0, 0.0, 0.0};
+    OstMesh *mesh = make_block(ctx);
+    OstBisection *bisection = NULL;
+    assert_success(ost_bisection_create(mesh, &bisection));
+    assert_int_equal(ost_bisection_pair(bisection, 1, &wrong), OST_INVALID_INPUT);
+    assert_success(ost_bisection_pair(bisection, 1, pairs));
+    assert_int_equal(ost_bisection_pair(bisection, 1, pairs), OST_INVALID_INPUT);
+    bisect_near(bisection, &mesh, corner, 0.5, NULL, NULL);
+    assert_int_equal(ost_bisection_pair(bisection, 1, pairs), OST_INVALID_INPUT);
+    ost_bisection_destroy(&bisection);
+    ost_mesh_destroy(&mesh);
+}
+
 static void regions_axes_points_and_curves_are_inherited(void **state)
 {
     static const double point[3] = {0.0, 0.0, 0.0};
@@ -367,6 +508,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(curved_tets_keep_their_space),
     cmocka_unit_test(pieces_that_would_turn_over_are_straight),
     cmocka_unit_test(shapes_of_an_irregular_mesh_stay_bounded),
+    cmocka_unit_test(periodic_pairs_stay_the_same),
+    cmocka_unit_test(sides_that_are_curved_otherwise_keep_the_same_vertices),
+    cmocka_unit_test(pairs_are_told_once_and_by_name),
     cmocka_unit_test(regions_axes_points_and_curves_are_inherited),
     cmocka_unit_test(fields_are_carried),
     cmocka_unit_test(tets_are_cut_as_often_as_asked_and_know_their_parents),

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/index_map.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "formats/cells/cells.h"
 
 #include <inttypes.h>
@@ -227,6 +229,40 @@ static OstStatus add_set(OstCells *cells, const OstCellSet *set, OstCellKind tet
     return add_cells(cells, set, quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3);
 }
 
+/* Keeps each face once. */
+static OstStatus keep_faces_once(const OstCells *cells, OstBoundary *boundary)
+{
+    const size_t width = (size_t)boundary->nodes_per_item;
+    OstIndex *index = NULL;
+    OstStatus status = ost_index_create(cells->ctx, 3, &index);
+    OstLocal place = 0, count = boundary->count;
+    boundary->count = 0;
+    for (OstLocal i = 0; status == OST_SUCCESS && i < count; i++) {
+        const OstGlobal *face = boundary->nodes + (size_t)i * width;
+        OstGlobal key[3] = {face[0], face[1], face[2]};
+        qsort(key, 3, sizeof *key, ost_compare_numbers);
+        status = ost_index_place(index, key, &place);
+        if (status == OST_SUCCESS && place == boundary->count)
+            memmove(boundary->nodes + (size_t)boundary->count++ * width, face, width * sizeof *face);
+    }
+    ost_index_destroy(&index);
+    return status;
+}
+
+/* A surface may have a face of a solid, and a shell on it. */
+static OstStatus keep_once(const OstCells *cells)
+{
+    for (int s = 0; s < cells->set_count; s++) {
+        const OstCellSet *set = &cells->set[s];
+        const int shells = ost_cells_find_set(cells, OST_SET_OF_CELLS, set->name);
+        const int b = find_boundary(cells->chunk, set->name);
+        if (set->kind == OST_SET_OF_FACES && shells >= 0 && cells->set[shells].count > 0 && b >= 0 &&
+            cells->chunk->boundaries[b].dimension == 2)
+            OST_TRY(keep_faces_once(cells, &cells->chunk->boundaries[b]));
+    }
+    return OST_SUCCESS;
+}
+
 /* Lines of another order than the tets' bound nothing. */
 static void leave_out_lines(OstCells *cells, int quadratic)
 {
@@ -242,12 +278,12 @@ OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets)
     const OstCellKind kind[3] = {OST_CELL_POINT, quadratic ? OST_CELL_LINE3 : OST_CELL_LINE2,
                                  quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3};
     leave_out_lines(cells, quadratic);
-    OST_TRY(ost_cells_cover_faces(cells, tets));
+    OST_TRY(ost_cells_make_faces(cells, tets));
     OST_TRY(OST_NEW(cells->ctx, &cells->chunk->boundaries, 0));
     for (int dimension = 2; dimension >= 0; dimension--) {
         OST_TRY(add_groups(cells, kind[dimension]));
         for (int s = 0; s < cells->set_count; s++)
             OST_TRY(add_set(cells, &cells->set[s], tets, dimension));
     }
-    return OST_SUCCESS;
+    return keep_once(cells);
 }

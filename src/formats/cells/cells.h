@@ -54,8 +54,9 @@ typedef struct OstCellName {
     char *name;
 } OstCellName;
 
-/* A named list of nodes, of cells, or of faces of solids; of sides of tets: what ost_cells_cover_faces makes. */
-typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES, OST_SET_OF_SIDES } OstSetKind;
+/* A named list of nodes, of cells, or of faces of solids; of cells that stand for their free faces, or, if they are
+ * faces, for themselves; of sides of tets: what ost_cells_make_faces makes of nodes. */
+typedef enum { OST_SET_OF_NODES, OST_SET_OF_CELLS, OST_SET_OF_FACES, OST_SET_OF_FREE, OST_SET_OF_SIDES } OstSetKind;
 typedef struct OstCellSet {
     OstSetKind kind;
     char *name;
@@ -135,8 +136,9 @@ OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets);
 OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets);
 
 /* Local. Sets of nodes that hold whole faces of the surface, and nothing beside them, become sets of these faces,
- * unless another set or group has the name. */
-OstStatus ost_cells_cover_faces(OstCells *cells, OstCellKind tets);
+ * unless another set or group has the name. Free faces of solids, which no other solid has, join those that their set's
+ * name has. */
+OstStatus ost_cells_make_faces(OstCells *cells, OstCellKind tets);
 
 /* The face of a tet opposite a vertex: its vertices, then (of quadratic tets) mid-edge nodes 01 12 20. */
 void ost_cell_face_of(const OstGlobal *tet, int nodes_per_tet, int opposite, OstGlobal face[6]);

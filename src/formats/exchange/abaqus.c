@@ -382,6 +382,8 @@ static OstStatus read_data_line(OstInp *inp)
         return ost_inp_set_line(inp);
     case OST_INP_SURFACE:
         return ost_inp_surface_line(inp);
+    case OST_INP_UNION:
+        return ost_inp_union_line(inp);
     case OST_INP_INSTANCE:
         return ost_inp_instance_line(inp);
     case OST_INP_TIE:
@@ -431,7 +433,7 @@ static void choose_regions(OstInp *inp)
     if (inp->left_out > 0)
         ost_warn(inp->ctx,
                  "%s: %" PRId64 " line%s of *SURFACE name%s no face (S1 to S6, SPOS or SNEG) of solids or shells, and "
-                 "%s left out; write the faces, also of a free surface, as CAE does",
+                 "%s left out; write the faces, as CAE does",
                  inp->cells.path, inp->left_out, inp->left_out == 1 ? "" : "s", inp->left_out == 1 ? "s" : "",
                  inp->left_out == 1 ? "is" : "are");
 }

@@ -14,6 +14,7 @@ typedef enum {
     OST_INP_SKIPPED,
     OST_INP_SET,
     OST_INP_SURFACE,
+    OST_INP_UNION,
     OST_INP_INSTANCE,
     OST_INP_SYSTEM,
     OST_INP_TIE,
@@ -127,6 +128,7 @@ OstStatus ost_inp_begin_set(OstInp *inp, const OstInpKeyword *keyword, OstSetKin
 OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword);
 OstStatus ost_inp_set_line(OstInp *inp);
 OstStatus ost_inp_surface_line(OstInp *inp);
+OstStatus ost_inp_union_line(OstInp *inp);
 
 /* Local. What is passed over: counts a keyword that changes how the body moves; *TIE and its lines, *COUPLING and the
  * *DISTRIBUTING after it, *ORIENTATION and the sections that name one; warns of all of them, once everything is read.

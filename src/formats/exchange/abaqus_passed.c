@@ -146,7 +146,7 @@ OstStatus ost_inp_oriented(OstInp *inp, const OstInpKeyword *keyword)
 /* The boundary's name, which has the instance's before it where there are several; "..." if nothing was read of it. */
 static const char *boundary_name(const OstInp *inp, const char *word, char text[OST_YAML_NAME])
 {
-    static const OstSetKind kinds[] = {OST_SET_OF_FACES, OST_SET_OF_CELLS, OST_SET_OF_NODES};
+    static const OstSetKind kinds[] = {OST_SET_OF_FACES, OST_SET_OF_FREE, OST_SET_OF_CELLS, OST_SET_OF_NODES};
     const char *name = NULL;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds && !name; k++) {
         const int set = ost_inp_find_set(inp, kinds[k], word);

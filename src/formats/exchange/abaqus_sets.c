@@ -77,7 +77,7 @@ static OstStatus read_range(OstInp *inp)
 /* A number, or the name of a set before. A number may come with its instance: Part-1-1.17. */
 static OstStatus put_word(OstInp *inp, const char *word)
 {
-    const OstSetKind kind = inp->cells.set[inp->set].kind;
+    const OstSetKind kind = inp->cells.set[inp->set].kind == OST_SET_OF_NODES ? OST_SET_OF_NODES : OST_SET_OF_CELLS;
     const int from = ost_inp_find_set(inp, kind, word);
     const char *dot = strrchr(word, '.');
     const char *digits = dot ? dot + 1 : word;
@@ -104,6 +104,28 @@ OstStatus ost_inp_set_line(OstInp *inp)
     return OST_SUCCESS;
 }
 
+/* Is a surface made of others in a way that is not read? Warns then, and of faces that Abaqus would take away. */
+static int warn_of_surface(const OstInp *inp, const OstInpKeyword *keyword)
+{
+    const char *combine = ost_inp_value(keyword, "COMBINE"), *trim = ost_inp_value(keyword, "TRIM");
+    const char *path = inp->lines->path;
+    const OstGlobal line = inp->lines->line;
+    const int refused = combine && strcasecmp(combine, "UNION") != 0;
+    if (refused)
+        ost_warn(inp->ctx,
+                 "%s:%" PRId64
+                 ": a surface made of others by COMBINE=%s is not read, and left out; write its faces, as "
+                 "CAE does",
+                 path, line, combine);
+    else if (trim && strcasecmp(trim, "YES") == 0)
+        ost_warn(inp->ctx,
+                 "%s:%" PRId64
+                 ": TRIM=YES is not read: where it ends a free surface keeps the faces around the corner; "
+                 "if they matter, write the faces, as CAE does",
+                 path, line);
+    return refused;
+}
+
 OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
 {
     char text[OST_INP_WORD];
@@ -113,20 +135,31 @@ OstStatus ost_inp_begin_surface(OstInp *inp, const OstInpKeyword *keyword)
         return OST_RAISE_LINE(inp->lines, "*SURFACE without its name, such as *SURFACE, NAME=TOP");
     if (type && !of_nodes && strcasecmp(type, "ELEMENT") != 0)
         return OST_SUCCESS; /* one that is no part of the mesh */
-    inp->block = of_nodes ? OST_INP_SET : OST_INP_SURFACE;
+    if (warn_of_surface(inp, keyword))
+        return OST_SUCCESS;
+    inp->block = ost_inp_value(keyword, "COMBINE") ? OST_INP_UNION : of_nodes ? OST_INP_SET : OST_INP_SURFACE;
     inp->generate = 0;
     inp->by_line = 1; /* of a surface of nodes: their set, or a node, and its area */
     inp->of = -1;
     return ost_cells_set(&inp->cells, of_nodes ? OST_SET_OF_NODES : OST_SET_OF_FACES, name, &inp->set);
 }
 
-/* Shells have a side of their own name: they are put into a set of cells that bounds. */
-static OstStatus put_shells(OstInp *inp, const char *word)
+/* Another set of the surface's name, of cells that are put as they are: shells have a side of their own name, and a
+ * free surface has no side. */
+static OstStatus open_whole(OstInp *inp, OstSetKind kind, int *set)
 {
-    const int set = inp->set, known = ost_cells_find_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name) >= 0;
-    OST_TRY(ost_cells_set(&inp->cells, OST_SET_OF_CELLS, inp->cells.set[set].name, &inp->set));
+    const char *name = inp->cells.set[inp->set].name;
+    const int known = ost_cells_find_set(&inp->cells, kind, name) >= 0;
+    OST_TRY(ost_cells_set(&inp->cells, kind, name, set));
     if (!known)
-        inp->cells.set[inp->set].is_region = 0;
+        inp->cells.set[*set].is_region = 0;
+    return OST_SUCCESS;
+}
+
+static OstStatus put_whole(OstInp *inp, OstSetKind kind, const char *word)
+{
+    const int set = inp->set;
+    OST_TRY(open_whole(inp, kind, &inp->set));
     const OstStatus status = put_word(inp, word);
     inp->set = set;
     return status;
@@ -157,32 +190,45 @@ static OstStatus put_faces(OstInp *inp, const char *word, int side)
     return OST_SUCCESS;
 }
 
-/* Has a set shells alone? Both of their sides are the surface that it stands for without a face. */
-static int is_of_shells(OstInp *inp, const char *word)
-{
-    const int from = ost_inp_find_set(inp, OST_SET_OF_CELLS, word);
-    OstLocal shells = 0;
-    if (from < 0)
-        return 0;
-    ost_cells_keep_once(&inp->cells, from);
-    const OstCellSet *set = &inp->cells.set[from];
-    for (int k = 0; k < OST_CELL_KINDS; k++)
-        for (OstLocal i = 0; i < inp->cells.list[k].count && ost_cell_facts[k].dimension == 2; i++)
-            shells += ost_numbers_find(set->count, set->item, inp->cells.list[k].label[i]) >= 0;
-    return shells > 0 && shells == set->count;
-}
-
-/* Elements or a set of them, and which face: S1 to S6 of solids, SPOS and SNEG of shells. The free surface of solids,
- * which a line without a face asks for, is not made. */
+/* Elements or a set of them, and which face: S1 to S6 of solids, SPOS and SNEG of shells; none: the free surface. */
 OstStatus ost_inp_surface_line(OstInp *inp)
 {
     char word[OST_INP_WORD], face[OST_INP_WORD];
     ost_inp_word(inp->lines, word);
     ost_inp_word(inp->lines, face);
-    if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0 || (face[0] == '\0' && is_of_shells(inp, word)))
-        return put_shells(inp, word);
+    if (face[0] == '\0')
+        return put_whole(inp, OST_SET_OF_FREE, word);
+    if (strcasecmp(face, "SPOS") == 0 || strcasecmp(face, "SNEG") == 0)
+        return put_whole(inp, OST_SET_OF_CELLS, word);
     if ((face[0] == 'S' || face[0] == 's') && face[1] >= '1' && face[1] <= '6' && face[2] == '\0')
         return put_faces(inp, word, face[1] - '1');
     inp->left_out++;
+    return OST_SUCCESS;
+}
+
+/* All that the reader may have put under a surface's name. */
+static OstStatus put_surface(OstInp *inp, const char *word)
+{
+    static const OstSetKind kinds[] = {OST_SET_OF_FACES, OST_SET_OF_FREE, OST_SET_OF_CELLS, OST_SET_OF_NODES};
+    int known = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        const int from = ost_inp_find_set(inp, kinds[k], word);
+        int into = -1;
+        if (from < 0)
+            continue;
+        OST_TRY(open_whole(inp, kinds[k], &into));
+        OST_TRY(ost_cells_put_set(&inp->cells, into, from));
+        known = 1;
+    }
+    return known ? OST_SUCCESS : OST_RAISE_LINE(inp->lines, "there is no surface '%s' before this line", word);
+}
+
+OstStatus ost_inp_union_line(OstInp *inp)
+{
+    char word[OST_INP_WORD];
+    while (!ost_lines_ended(inp->lines)) {
+        ost_inp_word(inp->lines, word);
+        OST_TRY(put_surface(inp, word));
+    }
     return OST_SUCCESS;
 }

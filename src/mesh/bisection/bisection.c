@@ -4,6 +4,7 @@
 #include "core/parallel/halo.h"
 #include "mesh/bisection/forest.h"
 #include "mesh/check/check.h"
+#include "mesh/periods.h"
 
 #include <string.h>
 
@@ -11,6 +12,8 @@ struct OstBisection {
     OstContext *ctx;
     const OstMesh *mesh;   /* to be bisected next */
     OstTag *tag;           /* of each of its local tets */
+    int pairs;             /* periodic ones */
+    OstPeriodicPair *pair; /* their names are the caller's */
     Forest *forest;        /* of the last split: from the mesh before */
     OstGlobal *leaf_label; /* of the forest's leaves: labels of the new mesh's tets */
     int settled;           /* is there a mesh made of them? */
@@ -21,7 +24,7 @@ void ost_bisection_destroy(OstBisection **bisection)
 {
     if (!*bisection)
         return;
-    OST_FREE((*bisection)->tag, (*bisection)->leaf_label);
+    OST_FREE((*bisection)->tag, (*bisection)->pair, (*bisection)->leaf_label);
     ost_forest_destroy(&(*bisection)->forest);
     OST_FREE(*bisection);
 }
@@ -42,20 +45,40 @@ static int is_longer(const EdgeRank *a, const EdgeRank *b)
     return a->key.low != b->key.low ? a->key.low < b->key.low : a->key.high < b->key.high;
 }
 
-static OstTag first_tag(const OstMesh *mesh, OstLocal tet)
+/* The node that counts for this one, as an end of an edge on the following boundaries of these pairs. */
+static OstPeriodicNode node_for(const OstMesh *mesh, const OstPeriods *periods, uint32_t pairs, OstLocal node)
+{
+    const double *x = mesh->coordinates + 3 * (size_t)node;
+    OstPeriodicNode itself = {.label = mesh->node_label[node]};
+    double back[3];
+    memcpy(itself.x, x, sizeof itself.x);
+    if (pairs == 0)
+        return itself;
+    ost_periods_back(periods, pairs, x, back);
+    const OstPeriodicNode *image = ost_periods_find(periods, back);
+    return image ? *image : itself;
+}
+
+/* Of edges on a boundary that follows, their images decide: so both are marked alike. */
+static EdgeRank rank_of(const OstMesh *mesh, const OstPeriods *periods, OstLocal a, OstLocal b)
+{
+    const uint32_t pairs = periods ? periods->follows[a] & periods->follows[b] : 0;
+    const OstPeriodicNode from = node_for(mesh, periods, pairs, a), to = node_for(mesh, periods, pairs, b);
+    double square = 0.0;
+    for (int d = 0; d < 3; d++) {
+        const double step = to.x[d] - from.x[d];
+        square += step * step;
+    }
+    return (EdgeRank){(float)square, ost_key(from.label, to.label)};
+}
+
+static OstTag first_tag(const OstMesh *mesh, const OstPeriods *periods, OstLocal tet)
 {
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
     EdgeRank edge[6];
     int rank[6] = {0};
-    for (int e = 0; e < 6; e++) {
-        const OstLocal a = nodes[ost_tet_edge[e][0]], b = nodes[ost_tet_edge[e][1]];
-        double square = 0.0;
-        for (size_t d = 0; d < 3; d++) {
-            const double step = mesh->coordinates[3 * (size_t)b + d] - mesh->coordinates[3 * (size_t)a + d];
-            square += step * step;
-        }
-        edge[e] = (EdgeRank){(float)square, ost_key(mesh->node_label[a], mesh->node_label[b])};
-    }
+    for (int e = 0; e < 6; e++)
+        edge[e] = rank_of(mesh, periods, nodes[ost_tet_edge[e][0]], nodes[ost_tet_edge[e][1]]);
     for (int e = 0; e < 6; e++)
         for (int f = 0; f < 6; f++)
             rank[e] += f != e && is_longer(&edge[f], &edge[e]);
@@ -73,11 +96,51 @@ OstStatus ost_bisection_create(const OstMesh *mesh, OstBisection **bisection)
         status = OST_NEW(ctx, &(*bisection)->tag, mesh->tet_count);
     }
     for (OstLocal t = 0; status == OST_SUCCESS && t < mesh->tet_count; t++)
-        (*bisection)->tag[t] = first_tag(mesh, t);
+        (*bisection)->tag[t] = first_tag(mesh, NULL, t);
     status = ost_agree(ctx, status);
     if (status != OST_SUCCESS)
         ost_bisection_destroy(bisection);
     ost_ledger_leave(ctx);
+    return status;
+}
+
+/* --- periodic pairs --- */
+
+static OstStatus check_pairs(const OstMesh *mesh, int count, const OstPeriodicPair *pair)
+{
+    for (int p = 0; p < 2 * count; p++) {
+        const char *name = p % 2 ? pair[p / 2].follows : pair[p / 2].leads;
+        const int b = ost_mesh_find_boundary(mesh, name);
+        if (b >= 0 && mesh->boundaries[b].dimension != 2)
+            return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                             "boundary '%.80s' is of %s, and a periodic pair that is refined is one of faces; name "
+                             "boundaries of faces",
+                             name, mesh->boundaries[b].dimension == 1 ? "curves" : "points");
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_bisection_pair(OstBisection *bisection, int count, const OstPeriodicPair *pair)
+{
+    const OstMesh *mesh = bisection->mesh;
+    OstPeriods *periods = NULL;
+    if (bisection->forest || bisection->pairs > 0)
+        return OST_RAISE(bisection->ctx, OST_INVALID_INPUT, "periodic pairs are stated once, before tets are cut");
+    if (count == 0)
+        return OST_SUCCESS;
+    OST_TRY(check_pairs(mesh, count, pair));
+    ost_ledger_enter(bisection->ctx, OST_LEDGER_MESH);
+    OstStatus status = ost_agree(bisection->ctx, OST_NEW(bisection->ctx, &bisection->pair, count));
+    OST_THEN(ost_periods_create(mesh, count, pair, &periods));
+    if (status == OST_SUCCESS) {
+        bisection->pairs = count;
+        memcpy(bisection->pair, pair, (size_t)count * sizeof *pair);
+        for (OstLocal t = 0; t < mesh->tet_count; t++)
+            bisection->tag[t] = first_tag(mesh, periods, t);
+    } else
+        OST_FREE(bisection->pair);
+    ost_periods_destroy(&periods);
+    ost_ledger_leave(bisection->ctx);
     return status;
 }
 
@@ -113,12 +176,12 @@ static void load_point(Load *load, const Leaf *leaf, OstLocal point, OstKey key,
                      load->value + (size_t)item * (size_t)load->width);
 }
 
-/* Where a vertex that is not on the old curve is, and edges at it are straight. */
+/* Where a vertex is, on the old curve or not; edges at one that is put halfway are straight. */
 static void straighten(Load *load, OstLocal point, OstLocal p, OstLocal q)
 {
     const ForestVertex *from = &load->forest->vertex[p], *to = &load->forest->vertex[q];
     double *x = load->value + 3 * (size_t)(load->place[point] - 1);
-    for (int d = 0; d < 3 && !load->old && (from->flat || to->flat); d++)
+    for (int d = 0; d < 3 && !load->old && (p == q || from->flat || to->flat); d++)
         x[d] = 0.5 * from->x[d] + 0.5 * to->x[d];
 }
 
@@ -204,14 +267,27 @@ OstStatus ost_bisection_carry(const OstBisection *bisection, int width, const do
 
 /* --- one generation --- */
 
+static OstStatus grow(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape)
+{
+    const OstMesh *mesh = bisection->mesh;
+    OstPeriods *periods = NULL;
+    if (bisection->pairs > 0)
+        OST_TRY(ost_periods_create(mesh, bisection->pairs, bisection->pair, &periods));
+    OstStatus status = ost_forest_create(mesh, bisection->tag, shape, periods, &bisection->forest);
+    OST_THEN(ost_forest_grow(bisection->forest, times));
+    if (bisection->forest)
+        bisection->forest->periods = NULL;
+    ost_periods_destroy(&periods);
+    return status;
+}
+
 static OstStatus split(OstBisection *bisection, const unsigned char *times, const OstShapeSurface *shape,
                        OstMeshChunk **chunk)
 {
     ost_forest_destroy(&bisection->forest);
     OST_FREE(bisection->leaf_label);
     bisection->settled = 0;
-    OST_TRY(ost_forest_create(bisection->mesh, bisection->tag, shape, &bisection->forest));
-    OST_TRY(ost_forest_grow(bisection->forest, times));
+    OST_TRY(grow(bisection, times, shape));
     OST_TRY(ost_forest_chunk(bisection->forest, chunk, &bisection->leaf_label));
     bisection->curved = bisection->mesh->nodes_per_tet == 10 && !bisection->forest->shape;
     return OST_SUCCESS;

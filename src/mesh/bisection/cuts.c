@@ -178,6 +178,9 @@ static OstStatus hear(Forest *forest, OstLocal count, const Answer *heard)
         ForestVertex *vertex = &forest->vertex[edge->cut];
         *vertex = (ForestVertex){.label = heard[i].label, .holder = heard[i].holder, .shared = edge->shared};
         ost_forest_ends(forest, heard[i].edge, vertex->ends);
+        const ForestVertex *end[2] = {&forest->vertex[vertex->ends[0]], &forest->vertex[vertex->ends[1]]};
+        vertex->leads = end[0]->leads & end[1]->leads;
+        vertex->follows = end[0]->follows & end[1]->follows;
         memcpy(vertex->x, heard[i].x, sizeof vertex->x);
     }
     for (OstLocal i = 0; i < forest->notice_count; i++)

@@ -52,7 +52,8 @@ static OstStatus list(const Forest *forest, OstLocal *count, OstGlobal **label)
             if (!is_curved(forest, &forest->vertex[leaf->vertex[v]]))
                 continue;
             OST_TRY(FOREST_ROOM(forest, *count, label));
-            (*label)[(*count)++] = forest->vertex[leaf->vertex[v]].label;
+            const ForestVertex *vertex = &forest->vertex[leaf->vertex[v]];
+            (*label)[(*count)++] = vertex->leader > 0 ? vertex->leader : vertex->label;
         }
     }
     return OST_SUCCESS;
@@ -87,6 +88,7 @@ static OstStatus flatten(Forest *forest, OstLocal *found)
     if (status == OST_SUCCESS && *found > 0) {
         qsort(all, (size_t)*found, sizeof *all, compare);
         move(forest, *found, all);
+        status = ost_forest_follow(forest);
     }
     OST_FREE(mine, all);
     return status;
@@ -98,6 +100,7 @@ OstStatus ost_forest_flatten(Forest *forest)
     OstLocal found = 1;
     if (!forest->shape && forest->mesh->nodes_per_tet == 4)
         return OST_SUCCESS;
+    OST_TRY(ost_forest_follow(forest));
     for (int round = 0; round < MOST_ROUNDS && found > 0; round++)
         OST_TRY(flatten(forest, &found));
     for (OstLocal n = forest->mesh->node_count; n < forest->vertex_count; n++)

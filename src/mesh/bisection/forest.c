@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "mesh/periods.h"
 
 #include <string.h>
 
@@ -70,6 +71,8 @@ static OstStatus file_vertices(Forest *forest)
         *vertex = (ForestVertex){
             .label = mesh->node_label[n], .ends = {-1, -1}, .holder = -1, .shared = n >= mesh->owned_nodes};
         memcpy(vertex->x, mesh->coordinates + 3 * (size_t)n, sizeof vertex->x);
+        vertex->leads = forest->periods ? forest->periods->leads[n] : 0;
+        vertex->follows = forest->periods ? forest->periods->follows[n] : 0;
     }
     for (OstLocal t = mesh->owned_tets; t < mesh->tet_count; t++)
         for (int v = 0; v < 4; v++)
@@ -106,13 +109,15 @@ static OstStatus file_all(Forest *forest, const OstTag *tag)
     return ost_forest_file_items(forest, tag);
 }
 
-OstStatus ost_forest_create(const OstMesh *mesh, const OstTag *tag, const OstShapeSurface *shape, Forest **forest)
+OstStatus ost_forest_create(const OstMesh *mesh, const OstTag *tag, const OstShapeSurface *shape,
+                            const OstPeriods *periods, Forest **forest)
 {
     OstContext *ctx = mesh->ctx;
     OstStatus status = OST_NEW(ctx, forest, 1);
     if (status == OST_SUCCESS) {
         (*forest)->ctx = ctx;
         (*forest)->mesh = mesh;
+        (*forest)->periods = periods;
         (*forest)->shape = shape && shape->kind != OST_SURFACE_NONE ? shape : NULL;
         for (OstLocal n = 0; n < mesh->owned_nodes; n++)
             if (mesh->node_label[n] > (*forest)->highest_label)
@@ -247,7 +252,7 @@ static OstStatus choose(Forest *forest, const unsigned char *times, Round *round
         const Leaf *leaf = &forest->leaf[i];
         int cut = leaf->depth < times[leaf->root];
         for (int e = 0; e < 6; e++)
-            cut |= forest->edge[leaf->edge[e]].cut >= 0;
+            cut |= forest->edge[leaf->edge[e]].cut >= 0 || forest->edge[leaf->edge[e]].wanted;
         if (!cut)
             continue;
         OST_TRY(FOREST_ROOM(forest, round->count, &round->leaf));
@@ -280,13 +285,25 @@ static OstStatus cut_round(Forest *forest, const unsigned char *times, Round *ro
     return ost_sum_numbers(forest->ctx, 1, cut);
 }
 
+/* Cuts tets until they meet in whole faces. */
+static OstStatus close(Forest *forest, const unsigned char *times, Round *round)
+{
+    OstGlobal cut = 1;
+    while (cut > 0)
+        OST_TRY(cut_round(forest, times, round, &cut));
+    return OST_SUCCESS;
+}
+
+/* Ends with periodic pairs, too: faces and their images have the same marked edges, as if they were one. */
 OstStatus ost_forest_grow(Forest *forest, const unsigned char *times)
 {
     Round round = {0};
-    OstGlobal cut = 1;
+    OstGlobal wanted = 1;
     OstStatus status = ost_forest_exchange(forest);
-    while (status == OST_SUCCESS && cut > 0)
-        status = cut_round(forest, times, &round, &cut);
+    while (status == OST_SUCCESS && wanted > 0) {
+        status = close(forest, times, &round);
+        OST_THEN(ost_forest_want_images(forest, &wanted));
+    }
     OST_FREE(round.leaf);
     ost_cuts_destroy(&forest->cuts);
     OST_THEN(ost_forest_flatten(forest));

@@ -33,15 +33,18 @@ typedef struct ForestEdge {
     OstLocal cut;    /* the vertex in its middle, or -1 */
     char shared;     /* may other ranks have tets with it? */
     char told;       /* does the meeting place know that this rank has it? */
+    char wanted;     /* is its image on the opposite boundary of a periodic pair cut? */
     OstLocal notice; /* the notice of it in this round, or -1 */
 } ForestEdge;
 
 typedef struct ForestVertex {
     OstGlobal label;
-    OstLocal ends[2]; /* of the edge that it cuts; -1 for a node of the old mesh */
-    int holder;       /* the rank that puts it into the new mesh; -1 for a node of the old mesh */
-    char shared;      /* may other ranks have tets with it? */
-    char flat;        /* is it put halfway between its ends, as tets would turn over? (flat.c) */
+    OstLocal ends[2];        /* of the edge that it cuts; -1 for a node of the old mesh */
+    int holder;              /* the rank that puts it into the new mesh; -1 for a node of the old mesh */
+    char shared;             /* may other ranks have tets with it? */
+    uint32_t leads, follows; /* the periodic pairs on whose boundaries it lies (mesh/periods.h) */
+    OstGlobal leader;        /* the label of its image on the boundaries that lead; 0: it follows none */
+    char flat;               /* is it put halfway between its ends, as tets would turn over? (flat.c) */
     double x[3];
 } ForestVertex;
 
@@ -58,8 +61,9 @@ typedef struct Forest {
     OstContext *ctx;
     const OstMesh *mesh;
     const OstShapeSurface *shape;
-    OstGlobal highest_label; /* of a vertex, so far */
-    OstGlobal label_limit;   /* of a node of the old mesh */
+    const struct OstPeriods *periods; /* NULL: there are none */
+    OstGlobal highest_label;          /* of a vertex, so far */
+    OstGlobal label_limit;            /* of a node of the old mesh */
     OstLocal vertex_count;
     ForestVertex *vertex;
     OstIndex *edges; /* by the local numbers of its ends, the lower first */
@@ -75,13 +79,22 @@ typedef struct Forest {
     struct Cuts *cuts;
 } Forest;
 
-/* Collective. The forest of a mesh's own tets with one tag for every local tet, and its boundary items. */
-OstStatus ost_forest_create(const OstMesh *mesh, const OstTag *tag, const OstShapeSurface *shape, Forest **forest);
+/* Collective. The forest of a mesh's own tets with one tag for every local tet, and its boundary items. `periods` of
+ * this mesh, or NULL, live until the forest has grown. */
+OstStatus ost_forest_create(const OstMesh *mesh, const OstTag *tag, const OstShapeSurface *shape,
+                            const struct OstPeriods *periods, Forest **forest);
 void ost_forest_destroy(Forest **forest);
 
 /* Collective. Bisects each of the rank's own tets and their children as many times as it says, and others until all
- * tets of the body meet in whole faces. */
+ * tets of the body meet in whole faces, and the boundaries of periodic pairs have the same ones. */
 OstStatus ost_forest_grow(Forest *forest, const unsigned char *times);
+
+/* Collective, once tets meet. Wants edges to be cut whose images are; how many more than before, on all ranks. */
+OstStatus ost_forest_want_images(Forest *forest, OstGlobal *wanted);
+
+/* Collective. Puts new vertices on boundaries that follow where their images on those that lead are, unless they are
+ * there to rounding. */
+OstStatus ost_forest_follow(Forest *forest);
 
 /* Collective, once it has grown. Puts new vertices halfway between the ends of their edges where straight leaves would
  * turn over, and warns. */

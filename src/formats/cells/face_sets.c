@@ -7,10 +7,11 @@
 #include <string.h>
 #include <strings.h>
 
-/* Programs name faces by their nodes. Such a set becomes the faces: nodes that `order: 2`, refinement, or the split of
- * a quadratic hexahedron add within them are then constrained too. */
+/* Sets of something else that become sets of faces.
+ * Programs name faces by their nodes: nodes that `order: 2`, refinement, or the split of a quadratic hexahedron add
+ * within them are then constrained too. Abaqus names solids alone for those of their faces that are free. */
 
-/* Faces all of whose nodes are in some set. */
+/* Faces all of whose nodes are marked: those of some sets, or of the solids in them. */
 typedef struct Faces {
     OstIndex *index;   /* by their vertices */
     OstGlobal *side;   /* of each: 4 × the tet's position + the vertex opposite; -1: between two tets */
@@ -141,16 +142,89 @@ static OstStatus cover_all(OstCells *cells, OstCellKind tets, Faces *faces)
     return OST_SUCCESS;
 }
 
-OstStatus ost_cells_cover_faces(OstCells *cells, OstCellKind tets)
+/* --- the free faces of solids --- */
+
+static void mark_solids(const OstCells *cells, const OstCellSet *set, OstCellKind tets, unsigned char *in)
+{
+    const size_t width = (size_t)ost_cell_facts[tets].nodes;
+    OstLocal tet = 0;
+    for (OstLocal i = 0; i < set->count; i++)
+        for (size_t n = 0; n < width && ost_cells_find(cells, set->item[i], &tet) == tets; n++)
+            in[cells->list[tets].nodes[(size_t)tet * width + n]] = WITHIN;
+}
+
+/* The faces of a tet that no other has. */
+static OstStatus put_free(OstCells *cells, int set, OstCellKind tets, OstLocal tet, const Faces *faces)
+{
+    static const int number[4] = {2, 3, 1, 0}; /* of Abaqus, by the vertex opposite */
+    const int width = ost_cell_facts[tets].nodes;
+    OstGlobal face[6];
+    for (int v = 0; v < 4; v++) {
+        ost_cell_face_of(cells->list[tets].nodes + (size_t)tet * (size_t)width, width, v, face);
+        sort3(face);
+        if (faces->side[ost_index_find(faces->index, face)] >= 0)
+            OST_TRY(ost_cells_put(cells, set, ost_cell_face(cells->list[tets].label[tet], number[v])));
+    }
+    return OST_SUCCESS;
+}
+
+/* They join the faces that the surface of this name has by their numbers, and its shells. */
+static OstStatus free_set(OstCells *cells, int s, OstCellKind tets, const Faces *faces)
+{
+    int sides = 0, shells = 0;
+    OST_TRY(ost_cells_set(cells, OST_SET_OF_FACES, cells->set[s].name, &sides));
+    OST_TRY(ost_cells_set(cells, OST_SET_OF_CELLS, cells->set[s].name, &shells));
+    for (OstLocal i = 0; i < cells->set[s].count; i++) {
+        const OstGlobal label = cells->set[s].item[i];
+        OstLocal cell = 0;
+        const OstCellKind kind = ost_cells_find(cells, label, &cell);
+        if (kind == tets)
+            OST_TRY(put_free(cells, sides, tets, cell, faces));
+        else if (kind < OST_CELL_KINDS && ost_cell_facts[kind].dimension == 2)
+            OST_TRY(ost_cells_put(cells, shells, label));
+        else
+            cells->missing++;
+    }
+    cells->set[s].count = 0;
+    ost_cells_keep_once(cells, sides);
+    ost_cells_keep_once(cells, shells);
+    return OST_SUCCESS;
+}
+
+static OstStatus free_all(OstCells *cells, OstCellKind tets, Faces *faces)
+{
+    const int count = cells->set_count;
+    OST_TRY(ost_index_create(cells->ctx, 3, &faces->index));
+    OST_TRY(OST_NEW(cells->ctx, &faces->in, cells->chunk->node_count));
+    for (int s = 0; s < count; s++)
+        if (cells->set[s].kind == OST_SET_OF_FREE)
+            mark_solids(cells, &cells->set[s], tets, faces->in);
+    OST_TRY(find_faces(cells, tets, faces));
+    for (int s = 0; s < count; s++)
+        if (cells->set[s].kind == OST_SET_OF_FREE)
+            OST_TRY(free_set(cells, s, tets, faces));
+    return OST_SUCCESS;
+}
+
+/* --- all of them --- */
+
+static OstStatus make_faces(OstCells *cells, OstCellKind tets, OstStatus (*make)(OstCells *, OstCellKind, Faces *))
 {
     Faces faces = {NULL};
-    int any = 0;
-    for (int s = 0; s < cells->set_count; s++)
-        any |= is_candidate(cells, s);
-    if (!any)
-        return OST_SUCCESS;
-    const OstStatus status = cover_all(cells, tets, &faces);
+    const OstStatus status = make(cells, tets, &faces);
     ost_index_destroy(&faces.index);
     OST_FREE(faces.side, faces.in);
     return status;
+}
+
+OstStatus ost_cells_make_faces(OstCells *cells, OstCellKind tets)
+{
+    int nodes = 0, solids = 0;
+    for (int s = 0; s < cells->set_count; s++) {
+        nodes |= is_candidate(cells, s);
+        solids |= cells->set[s].kind == OST_SET_OF_FREE;
+    }
+    if (solids)
+        OST_TRY(make_faces(cells, tets, free_all));
+    return nodes ? make_faces(cells, tets, cover_all) : OST_SUCCESS;
 }
