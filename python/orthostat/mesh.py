@@ -148,7 +148,7 @@ class Mesh:
 
     @property
     def node_labels(self):
-        """(node_count,): numbers of the file, or those of the caller's arrays plus 1"""
+        """(node_count,): numbers of the file (plus 1 if that counts from 0), or those of the caller's arrays plus 1"""
         return self._view(lib.ost_mesh_node_labels(self.pointer), self.node_count)
 
     @property

@@ -50,6 +50,7 @@ struct OstMeshChunk {
     OstLocal node_count, tet_count;
     double *coordinates;   /* node_count × 3 */
     OstGlobal *node_label; /* numbers as in the file; NULL: 1, 2, 3, ... */
+    OstGlobal label_shift; /* these are so much more than in the file */
     OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
     int relabelled;        /* the file's numbers of tets were no use, and were replaced */
@@ -88,8 +89,9 @@ struct OstMesh {
     OstLocal tet_count, owned_tets;
     OstGlobal first_node;   /* global number of local node 0 after partition: owned nodes are first_node + i */
     OstGlobal *node_number; /* node_count: global numbers after partition (contiguous over ranks) */
-    OstGlobal *node_label;  /* node_count: numbers as in the file */
-    OstGlobal *tet_label;   /* tet_count */
+    OstGlobal *node_label;  /* node_count: numbers as in the file, from 1: */
+    OstGlobal label_shift;  /* so much more than in a file that has lower ones */
+    OstGlobal *tet_label;   /* tet_count: likewise from 1 */
     int of_cells;           /* as in the chunk; a refined mesh has it no more */
     double *coordinates;    /* node_count × 3 */
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */

@@ -318,6 +318,30 @@ check(fine["tets"] == 8 * 136 and abs(fine["volume"] - 2) < 1e-9, f"{fine['tets'
 check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2, "raised")
 check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
 
+# TetGen counts from 1, or with -z from 0: `vertices` takes the file's numbers, what is written counts from 1.
+CORNERS, TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [(0, 1, 2, 3), (1, 2, 3, 4)]
+found = {}
+for first in (0, 1):
+    write(folder, f"from{first}.node", "5 3 0 0\n" + "".join("%d %g %g %g\n" % (n + first, *p) for n, p in enumerate(CORNERS)))
+    write(folder, f"from{first}.ele",
+          "2 4 0\n" + "".join("%d %d %d %d %d\n" % (t + first, *(n + first for n in tet)) for t, tet in enumerate(TETS)))
+    for order in (1, 2):
+        write(folder, "counted.yaml", f"""mesh: {{file: from{first}.node, refine: {order - 1}}}
+element: {{order: {order}}}
+materials: [{{region: all, youngs_modulus: 10, poissons_ratio: 0.3}}]
+constraints: [{{on: {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{vertices: [{4 + first}]}}, point_force: [0, 0, -0.001]}}]
+watch: {{tip: {{displacement: {{nearest: [1, 1, 1]}}}}}}
+""")
+        done = run("solve", "counted.yaml", "--json", "-", "--output", "counted.vtu", folder=folder)
+        check(done.exit_code == 0 and ("numbered from 0" in done.errors) == (first == 0), done.errors)
+        found[first, order] = json.loads(done.output)["watched"]["tip"]["value"]
+    for ending in ("msh", "inp", "vtu"):
+        inspect(f"from{first}.node", f"from{first}.{ending}", "--refine", "1", "--element-order", "2")
+check(found[0, 1] == found[1, 1] and found[0, 2] == found[1, 2], f"{found}")
+for ending in ("msh", "inp", "vtu"):
+    check(open(os.path.join(folder, f"from0.{ending}")).read() == open(os.path.join(folder, f"from1.{ending}")).read(), ending)
+
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 write(folder, "two.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 8\n" + "".join("%g %g %g 0\n" % p for p in POINTS) +
              "Tetrahedra 2\n1 2 3 4 1\n6 7 8 5 2\nEnd\n")

@@ -215,6 +215,7 @@ static OstStatus fill_nodes(Making *making)
     OstMesh *mesh = making->mesh;
     OST_TRY(OST_NEW(mesh->ctx, &mesh->coordinates, 3 * (size_t)mesh->node_count));
     OST_TRY(OST_NEW(mesh->ctx, &mesh->node_label, mesh->node_count));
+    mesh->label_shift = making->mid->mesh->label_shift;
     for (OstLocal n = 0; n < mid->count; n++) {
         const OstLocal i = making->local[n] - 1;
         if (i < 0)

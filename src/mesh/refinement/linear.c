@@ -37,6 +37,7 @@ static OstStatus fill_nodes(const OstMesh *quadratic, const OstLocal *vertex, Os
 {
     OST_TRY(OST_NEW(linear->ctx, &linear->coordinates, 3 * (size_t)linear->node_count));
     OST_TRY(OST_NEW(linear->ctx, &linear->node_label, linear->node_count));
+    linear->label_shift = quadratic->label_shift;
     OST_TRY(OST_NEW(linear->ctx, &linear->node_number, linear->node_count));
     for (OstLocal n = 0; n < quadratic->node_count; n++) {
         if (vertex[n] < 0)
