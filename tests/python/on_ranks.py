@@ -238,6 +238,17 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
     assert np.array_equal(found_points, points) and np.array_equal(found_tets, tets)
     assert np.array_equal(scene.mesh.gather_tets(scene.mesh.regions), regions)
     close(scene.mesh.share(points), scene.mesh.points[:scene.mesh.owned_nodes])
+    gaps = os.path.join(folder, "gaps.node")  # labels from 0, with gaps, in another order than the nodes'
+    if rank == 0:
+        with open(gaps, "w") as stream, open(os.path.join(folder, "gaps.ele"), "w") as tet_stream:
+            label = [3 * (len(points) - 1 - n) for n in range(len(points))]
+            print(len(points), 3, 0, 0, *("\n%d %g %g %g" % (label[n], *x) for n, x in enumerate(points)), file=stream)
+            print(len(tets), 4, 0, *("\n%d %d %d %d %d" % (t, *(label[n] for n in tet)) for t, tet in enumerate(tets)),
+                  file=tet_stream)
+    for mesh in (scene.mesh.quadratic(), scene.mesh.refined(), orthostat.Mesh(gaps), orthostat.Mesh(gaps).quadratic()):
+        own = mesh.points[:mesh.owned_nodes]
+        assert np.array_equal(mesh.share(mesh.gather_nodes(own)), own) and len(own) > 0
+        raises(ValueError, f"rows for all {mesh.global_nodes} nodes", mesh.share, np.zeros(mesh.global_nodes + 1))
 
     # The same by shares of all ranks, and as a problem of its own parts.
     nodes, mine = np.array_split(np.arange(len(points)), size)[rank], np.array_split(np.arange(len(tets)), size)[rank]
