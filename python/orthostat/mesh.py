@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes: from arrays, from files, and as the ranks share them."""
+import os
+
 import numpy
 
 from ._library import array, ffi, lib, pointer_to, text_of, view
@@ -78,7 +80,7 @@ class MeshFile:
 
     def chunk(self, context):
         box = ffi.new("OstMeshChunk **")
-        context.check(lib.ost_chunk_read(context.pointer, str(self.path).encode(), box))
+        context.check(lib.ost_chunk_read(context.pointer, os.fsencode(self.path), box))
         return box
 
 
