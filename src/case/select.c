@@ -157,18 +157,12 @@ OstStatus ost_select_check_place(const OstCase *c, const OstMesh *mesh, const Os
     return OST_SUCCESS;
 }
 
-/* Labels of a selection are the file's numbers. */
-static OstGlobal file_number(const OstMesh *mesh, OstLocal node)
-{
-    return mesh->node_label[node] - mesh->label_shift;
-}
-
 /* Is a label of the range first to last missing, over all ranks? */
 static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last, int *missing)
 {
     OstGlobal found = 0;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        found += file_number(mesh, n) >= first && file_number(mesh, n) <= last;
+        found += ost_mesh_node_number(mesh, n) >= first && ost_mesh_node_number(mesh, n) <= last;
     OST_TRY(ost_sum_numbers(mesh->ctx, 1, &found));
     *missing = found < last - first + 1;
     return OST_SUCCESS;
@@ -213,7 +207,8 @@ static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSel
     OstStatus status = OST_NEW(ctx, &found, selection->range_count);
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstGlobal range = ost_ranges_find(selection->range_count, selection->ranges, file_number(mesh, n));
+        const OstGlobal range =
+            ost_ranges_find(selection->range_count, selection->ranges, ost_mesh_node_number(mesh, n));
         flags[n] = range >= 0;
         if (range >= 0)
             found[range]++;

@@ -318,7 +318,7 @@ check(fine["tets"] == 8 * 136 and abs(fine["volume"] - 2) < 1e-9, f"{fine['tets'
 check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2, "raised")
 check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
 
-# TetGen counts from 1, or with -z from 0: `vertices` takes the file's numbers, what is written counts from 1.
+# TetGen counts from 1, or with -z from 0: `vertices` and messages have the file's numbers, what is written counts from 1.
 CORNERS, TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [(0, 1, 2, 3), (1, 2, 3, 4)]
 found = {}
 for first in (0, 1):
@@ -335,6 +335,13 @@ watch: {{tip: {{displacement: {{nearest: [1, 1, 1]}}}}}}
 """)
         done = run("solve", "counted.yaml", "--json", "-", "--output", "counted.vtu", folder=folder)
         check(done.exit_code == 0 and ("numbered from 0" in done.errors) == (first == 0), done.errors)
+        if order == 1:
+            write(folder, "clash.yaml", open(os.path.join(folder, "counted.yaml")).read().replace(
+                "constraints: [", f"constraints: [{{on: {{vertices: [{first}]}}, displacement: [1, 0, 0]}}, "))
+            clash = run("check", "clash.yaml", folder=folder)
+            check(clash.exit_code == 2 and f"vertex {first} is constrained to 1" in clash.errors, clash.errors)
+            inspected = inspect(f"from{first}.node")
+            check(inspected["components"][0]["first_tet"] == first, f"{inspected}")
         found[first, order] = json.loads(done.output)["watched"]["tip"]["value"]
     for ending in ("msh", "inp", "vtu"):
         inspect(f"from{first}.node", f"from{first}.{ending}", "--refine", "1", "--element-order", "2")

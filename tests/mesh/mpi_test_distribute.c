@@ -500,10 +500,10 @@ static OstMeshChunk *labelled_chunk(const OstGlobal node_label[5], const OstGlob
 static void labels_below_1_become_1_and_more(void **state)
 {
     const struct {
-        OstGlobal node[5], tet[2], least[2], most[2], shift;
-    } table[] = {{{0, 1, 2, 3, 4}, {0, 1}, {1, 1}, {5, 2}, 1},
-                 {{7, 0, 3, 9, 5}, {4, 8}, {1, 4}, {10, 8}, 1},
-                 {{1, 3, 5, 7, 9}, {2, -5}, {1, 1}, {9, 8}, 0}};
+        OstGlobal node[5], tet[2], least[2], most[2], shift[2];
+    } table[] = {{{0, 1, 2, 3, 4}, {0, 1}, {1, 1}, {5, 2}, {1, 1}},
+                 {{7, 0, 3, 9, 5}, {4, 8}, {1, 4}, {10, 8}, {1, 0}},
+                 {{1, 3, 5, 7, 9}, {2, -5}, {1, 1}, {9, 8}, {0, 6}}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         OstMeshChunk *chunk = labelled_chunk(table[i].node, table[i].tet);
         OstMesh *mesh = NULL, *fine = NULL, *linear = NULL;
@@ -523,8 +523,9 @@ static void labels_below_1_become_1_and_more(void **state)
         assert_memory_equal(most, table[i].most, sizeof most);
         assert_success(ost_mesh_raise(mesh, NULL, &fine));
         assert_success(ost_mesh_linear(fine, &linear, NULL));
-        assert_int_equal(mesh->label_shift, table[i].shift);
-        assert_int_equal(linear->label_shift, table[i].shift);
+        assert_int_equal(mesh->node_shift, table[i].shift[0]);
+        assert_int_equal(mesh->tet_shift, table[i].shift[1]);
+        assert_int_equal(linear->node_shift, table[i].shift[0]);
         ost_mesh_destroy(&mesh);
         ost_mesh_destroy(&fine);
         ost_mesh_destroy(&linear);
