@@ -62,8 +62,9 @@ struct OstMeshChunk {
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
-    int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
-    char *file;     /* that it is read from, for messages; or NULL */
+    int straighten;    /* curved tets that fold over are made straight when the mesh is distributed, not refused */
+    int only_vertices; /* what is between vertices is left out afterwards: curved tets may fold over */
+    char *file;        /* that it is read from, for messages; or NULL */
 };
 
 /* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */

@@ -318,6 +318,23 @@ check(fine["tets"] == 8 * 136 and abs(fine["volume"] - 2) < 1e-9, f"{fine['tets'
 check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2, "raised")
 check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
 
+# A curved tet that folds over is sound as a straight one, but not where it is refined first.
+TEN_NODES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0, 0), (2.5, 0, 0), (0, 0.5, 0), (0, 0, 0.5), (0, 0.5, 0.5), (0.5, 0, 0.5)]
+write(folder, "folded.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n" + "".join(
+    "%d %g %g %g\n" % (n, *x) for n, x in enumerate(TEN_NODES, 1)) + "$EndNodes\n$Elements\n1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n")
+check(inspect("folded.msh", "straight.vtu", "--element-order", "1")["nodes"] == 4, "straight")
+done = run("mesh", "folded.msh", "--element-order", "1", "--refine", "1", folder=folder)
+check(done.exit_code == 2 and "folds over" in done.errors, done.errors)
+write(folder, "folded.yaml", """mesh: {file: folded.msh}
+element: {order: 1}
+materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]
+constraints: [{on: {vertices: [1, 2, 3]}, displacement: [0, 0, 0]}]
+loads: [{on: {vertices: [4]}, point_force: [0, 0, -0.001]}]
+""")
+for order, wanted in ((1, 0), (2, 2)):
+    done = run("check", "folded.yaml", "--set", f"element.order={order}", folder=folder)
+    check(done.exit_code == wanted and ("folds over" in done.errors) == (order == 2), done.errors)
+
 # TetGen counts from 1, or with -z from 0: `vertices` and messages have the file's numbers, what is written counts from 1.
 CORNERS, TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [(0, 1, 2, 3), (1, 2, 3, 4)]
 found = {}

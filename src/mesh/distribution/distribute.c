@@ -203,7 +203,7 @@ static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMe
     (*mesh)->straighten = chunk->straighten;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
     OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : partition_and_move(chunk, tets, *mesh));
-    OST_TRY(name_file(chunk, ost_check_mesh(*mesh)));
+    OST_TRY(name_file(chunk, ost_check_mesh(*mesh, !chunk->only_vertices)));
     return name_file(chunk, number_from_one(chunk->file, *mesh));
 }
 
