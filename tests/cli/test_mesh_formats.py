@@ -141,6 +141,48 @@ done = run("mesh", write(folder, "short.bdf", DECK.replace("ENDDATA\n", "")), fo
 check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)
 check(not run("mesh", "deck.bdf", folder=folder).errors, "a whole deck is warned of")
 
+# VTK's attributes beside the data, as its writer has them, in text and in bytes; names with blanks.
+def vtk(numbers):
+    """A grid of two tets; `numbers`: its arrays of big-endian types, as the file has them."""
+    return b"".join(part.encode() if isinstance(part, str) else numbers(*part) + b"\n" for part in (
+        "# vtk DataFile Version 4.2\ntwo\n" + ("BINARY" if numbers is as_bytes else "ASCII") + "\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 5 double\n", (">f8", [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]),
+        "CELLS 2 10\n", (">i4", [4, 0, 1, 2, 3, 4, 1, 2, 3, 4]), "CELL_TYPES 2\n", (">i4", [10, 10]),
+        "CELL_DATA 2\nSCALARS material int\nLOOKUP_TABLE rainbow\n", (">i4", [0, 3]),
+        "LOOKUP_TABLE rainbow 2\n", ("u1", [1, 0, 0, 1, 0, 1, 0, 1]), "TENSORS6 t double\n", (">f8", range(12)),
+        "GLOBAL_IDS GlobalElementId vtkIdType\n", (">i4", [0, 1]), "PEDIGREE_IDS of vtkIdType\n", (">i4", [4, 5]),
+        "FIELD FieldData 1\nYoung%20E%25 1 2 double\n", (">f8", [10, 20]),
+        "POINT_DATA 5\nCOLOR_SCALARS rgb 3\n", ("u1", [0] * 15), "NORMALS n double\n", (">f8", [0] * 15),
+        "TEXTURE_COORDINATES tc 2 double\n", (">f8", [0] * 10), "EDGE_FLAGS e int\n", (">i4", [0] * 5)))
+
+
+def as_bytes(kind, values):
+    return np.array(values, kind).tobytes()
+
+
+def as_text(_, values):
+    return " ".join(map(str, values)).encode()
+
+
+moved = set()
+for name, numbers in ("bytes", as_bytes), ("text", as_text):
+    write(folder, name + ".vtk", vtk(numbers))
+    write(folder, "attributes.yaml", f"""mesh: {{file: {name}.vtk}}
+materials: [{{region: all, youngs_modulus: {{field: Young E%}}, poissons_ratio: 0.3}}]
+constraints: [{{on: {{vertices: [1, 2, 3]}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{vertices: [5]}}, point_force: [0, 0, -0.001]}}]
+watch: {{energy: strain_energy}}
+""")
+    done = run("solve", "attributes.yaml", "--json", "-", "--output", "attributes.vtu", folder=folder)
+    check(done.exit_code == 0, done.errors)
+    report = json.loads(done.output)
+    moved.add(report["watched"]["energy"]["value"])
+    held = json.loads(run("mesh", name + ".vtk", "--json", "-", folder=folder).output)
+    check([r["name"] for r in held["regions"]] == ["volume-0", "volume-3"], f"{held}")
+check(len(moved) == 1, f"{moved}")
+done = run("mesh", write(folder, "much.vtk", vtk(as_bytes).replace(b"rgb 3", b"rgb 9999999")), folder=folder)
+check(done.exit_code == 2 and "colours stated, which do not fit" in done.errors, done.errors)
+
 # A text that was cut off is told so; a case is no mesh.
 text = open(stored("gmsh-linear.unv")).read()
 cut = text[:text.index("\n", len(text) // 3) - 2]
