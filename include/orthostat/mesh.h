@@ -101,8 +101,9 @@ void ost_chunk_destroy(OstMeshChunk **chunk);
 
 /* Collective. Checks the chunk (finite coordinates, no inverted or flat tet, node numbers in range, no node used twice
  * by a tet), partitions it with METIS into as many parts as there are ranks, moves every piece to its rank, and checks
- * that each vertex is used by a tet. The chunk is consumed: destroyed, and the pointer nulled. Raises OST_INVALID_INPUT
- * naming the tet or vertex by its label, and OST_LIMIT_EXCEEDED where METIS' 32-bit numbers would overflow. */
+ * that each vertex is used by a tet. Labels of the mesh are 1 or more: those of a file that counts from 0 become one
+ * more. The chunk is consumed: destroyed, and the pointer nulled. Raises OST_INVALID_INPUT naming the tet or vertex by
+ * its label, and OST_LIMIT_EXCEEDED where METIS' 32-bit numbers would overflow. */
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh);
 
 void ost_mesh_destroy(OstMesh **mesh);

@@ -55,14 +55,14 @@ class Case:
     def __init__(self, source, name="case", comm=None, settings=None, swept=False):
         self.context = context_of(comm)
         box = self.context.box("OstCase")
-        source = _text_of(source) if isinstance(source, dict) else source
+        source = _text_of(source) if isinstance(source, dict) else source.decode() if isinstance(source, bytes) else source
         texts = [ffi.new("char[]", f"{key}={_value(value)}".encode()) for key, value in (settings or {}).items()]
         if isinstance(source, str) and ("\n" in source or ": " in source):
             parse = lib.ost_case_parse_swept if swept else lib.ost_case_parse_with
             status = parse(self.context.pointer, os.fspath(name).encode(), source.encode(), len(texts), texts, box)
         else:
             read = lib.ost_case_read_swept if swept else lib.ost_case_read_with
-            status = read(self.context.pointer, os.fspath(source).encode(), len(texts), texts, box)
+            status = read(self.context.pointer, os.fsencode(source), len(texts), texts, box)
         self.context.check(status)
         self.pointer, self.owner = box[0], self.context.handle_of(box[0], lib.ost_case_destroy)
 

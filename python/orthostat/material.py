@@ -31,6 +31,7 @@ class Material:
         else:
             _nine(context, name, youngs_modulus, poissons_ratio, shear_modulus, constants)
         self.struct = ffi.new("OstMaterial *")
+        self.context = context
         context.check(lib.ost_material_create(context.pointer, name.encode(), constants, density, self.struct))
 
     def __repr__(self):
@@ -52,12 +53,12 @@ class Material:
         """(6, 6): the inverse of the stiffness."""
         return self._turned(self.struct.compliance, axes, lib.ost_material_rotate_compliance)
 
-    @staticmethod
-    def _turned(values, axes, turn):
+    def _turned(self, values, axes, turn):
         own = numpy.array(list(values))
         if axes is not None:
-            world = numpy.empty(36)
-            turn(pointer_to(own), pointer_to(array(axes, (3, 3), "axes")), pointer_to(world))
+            world, axes = numpy.empty(36), array(axes, (3, 3), "axes").copy()
+            self.context.check(lib.ost_axes_check(self.context.pointer, b"axes", pointer_to(axes)))
+            turn(pointer_to(own), pointer_to(axes), pointer_to(world))
             own = world
         return own.reshape(6, 6)
 

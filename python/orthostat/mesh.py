@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes: from arrays, from files, and as the ranks share them."""
+import os
+
 import numpy
 
 from ._library import array, ffi, lib, pointer_to, text_of, view
@@ -78,7 +80,7 @@ class MeshFile:
 
     def chunk(self, context):
         box = ffi.new("OstMeshChunk **")
-        context.check(lib.ost_chunk_read(context.pointer, str(self.path).encode(), box))
+        context.check(lib.ost_chunk_read(context.pointer, os.fsencode(self.path), box))
         return box
 
 
@@ -148,7 +150,7 @@ class Mesh:
 
     @property
     def node_labels(self):
-        """(node_count,): numbers of the file, or those of the caller's arrays plus 1"""
+        """(node_count,): numbers of the file (plus 1 if that counts from 0), or those of the caller's arrays plus 1"""
         return self._view(lib.ost_mesh_node_labels(self.pointer), self.node_count)
 
     @property
@@ -191,12 +193,16 @@ class Mesh:
     # --- arrays over the whole body ---
 
     def share(self, whole):
-        """Of an array over all nodes, in the order of the caller's own, the rows of this rank's nodes (a copy)."""
-        return numpy.asarray(whole)[self.node_labels[:self.owned_nodes] - 1]
+        """Collective. Of an array over all nodes, as gather_nodes gives it, the rows of this rank's own (a copy)."""
+        whole, labels = numpy.asarray(whole), self.node_labels[:self.owned_nodes]
+        place = numpy.searchsorted(numpy.sort(self.context.gather(labels)), labels)
+        if numpy.shape(whole)[:1] != (self.global_nodes,):
+            raise ValueError(f"share: rows for all {self.global_nodes} nodes are wanted, and this is of shape {whole.shape}")
+        return whole[place]
 
     def gather_nodes(self, values):
         """Collective. Of an array over this rank's nodes, the rows of all nodes of the body in the order of their labels,
-        on every rank."""
+        on every rank. (The labels of MeshArrays are in the order of their points.)"""
         return self._gather(self.node_labels[:self.owned_nodes], values)
 
     def gather_tets(self, values):

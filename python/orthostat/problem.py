@@ -180,7 +180,10 @@ def _constraints(mesh, constraints):
 
 def _constraint(mesh, nodes, displacement, direction=None):
     nodes = numpy.asarray(nodes)
-    nodes = numpy.flatnonzero(nodes) if nodes.dtype == bool else nodes.astype(numpy.int32)
+    if nodes.dtype == bool and nodes.shape not in ((mesh.owned_nodes,), (mesh.node_count,)):
+        raise ValueError(f"constraints: a mask has an entry for each of the {mesh.owned_nodes} nodes of this rank's own, and "
+                         f"this is of shape {nodes.shape}")
+    nodes = numpy.flatnonzero(nodes) if nodes.dtype == bool else array(nodes, (None,), "constraints: nodes", numpy.int64)
     wrong = nodes[(nodes < 0) | (nodes >= mesh.node_count)]
     if len(wrong):
         raise ValueError(f"constraints: there is no node {wrong[0]}; this rank's are 0 to {mesh.node_count - 1}")
@@ -258,8 +261,8 @@ class Path:
 
     def save(self, file):
         """Collective. Writes a checkpoint."""
-        self.context.check(lib.ost_path_save(self.pointer, os.fspath(file).encode()))
+        self.context.check(lib.ost_path_save(self.pointer, os.fsencode(file)))
 
     def resume(self, file):
         """Collective. Goes on from a checkpoint, if there is one."""
-        self.context.check(lib.ost_path_resume(self.pointer, os.fspath(file).encode()))
+        self.context.check(lib.ost_path_resume(self.pointer, os.fsencode(file)))

@@ -152,7 +152,7 @@ class Result:
     def write(self, path, fields=None):
         """Collective. Writes the file of fields for ParaView (.vtkhdf, .hdf, .vtu, .pvtu): those of `fields` that the
         answer has, or that follow from them; None: what the case's `output` says."""
-        self.context.check(lib.ost_result_write(self.pointer, bits_of(fields, self._default_fields()), os.fspath(path).encode()))
+        self.context.check(lib.ost_result_write(self.pointer, bits_of(fields, self._default_fields()), os.fsencode(path)))
 
     def _default_fields(self):
         return lib.ost_case_output_fields(self.scene.case.pointer) if self.scene else lib.OST_FIELDS_BY_DEFAULT
@@ -165,9 +165,11 @@ class Result:
 def write_steps(results, path, fields=None):
     """Collective. Writes several results on one mesh ({name: result}, as of load cases) as steps of one file, which ends
     with .vtkhdf; `fields` as for Result.write."""
+    if not results:
+        raise ValueError("write_steps: there is no result to write")
     one = next(iter(results.values()))
     box = one.context.box("OstStepsFile")
-    one.context.check(lib.ost_steps_file_create(one.context.pointer, os.fspath(path).encode(), len(results), box))
+    one.context.check(lib.ost_steps_file_create(one.context.pointer, os.fsencode(path), len(results), box))
     try:
         for number, (name, result) in enumerate(results.items(), 1):
             result.context.check(lib.ost_result_write_step(result.pointer, bits_of(fields, result._default_fields()), box[0],

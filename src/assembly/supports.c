@@ -75,7 +75,8 @@ static OstStatus raise_contradiction(const OstSupports *supports, OstLocal node,
         supports->ctx, OST_INVALID_INPUT,
         "vertex %lld is constrained to %g along (%g, %g, %g) and to %g by another constraint; make them agree, or "
         "leave one out",
-        (long long)supports->mesh->node_label[node], earlier, direction[0], direction[1], direction[2], prescribed);
+        (long long)ost_mesh_node_number(supports->mesh, node), earlier, direction[0], direction[1], direction[2],
+        prescribed);
 }
 
 /* Removes from `rest` its part along the constrained directions (twice, against rounding errors), and returns the
@@ -110,7 +111,7 @@ OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const dou
         return OST_RAISE(supports->ctx, OST_INVALID_INPUT,
                          "vertex %lld is to be constrained to %g along (%g, %g, %g); expected finite numbers and a "
                          "direction that is not zero",
-                         (long long)supports->mesh->node_label[node], prescribed, direction[0], direction[1],
+                         (long long)ost_mesh_node_number(supports->mesh, node), prescribed, direction[0], direction[1],
                          direction[2]);
     OstSupport *support;
     OST_TRY(support_of(supports, node, &support));

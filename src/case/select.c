@@ -162,7 +162,7 @@ static OstStatus is_missing(const OstMesh *mesh, OstGlobal first, OstGlobal last
 {
     OstGlobal found = 0;
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        found += mesh->node_label[n] >= first && mesh->node_label[n] <= last;
+        found += ost_mesh_node_number(mesh, n) >= first && ost_mesh_node_number(mesh, n) <= last;
     OST_TRY(ost_sum_numbers(mesh->ctx, 1, &found));
     *missing = found < last - first + 1;
     return OST_SUCCESS;
@@ -207,7 +207,8 @@ static OstStatus flag_labels(const OstCase *c, const OstMesh *mesh, const OstSel
     OstStatus status = OST_NEW(ctx, &found, selection->range_count);
     OST_TRY_DONE(ost_agree(ctx, status));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstGlobal range = ost_ranges_find(selection->range_count, selection->ranges, mesh->node_label[n]);
+        const OstGlobal range =
+            ost_ranges_find(selection->range_count, selection->ranges, ost_mesh_node_number(mesh, n));
         flags[n] = range >= 0;
         if (range >= 0)
             found[range]++;

@@ -94,6 +94,7 @@ static OstStatus prepare(const Request *request, OstMeshChunk *chunk)
         ost_log(ctx, OST_LOG_NORMAL, "joined vertices: %lld", (long long)merged);
     }
     chunk->straighten = request->text['s'] != NULL;
+    chunk->only_vertices = request->order == 1 && request->refine == 0;
     return OST_SUCCESS;
 }
 

@@ -57,9 +57,9 @@ static void count_tet(const OstMesh *mesh, OstLocal tet, OstMeshReport *counts)
     counts->mean_quality += quality / (double)mesh->global_tets;
     counts->bins[bin < 0 ? 0 : bin >= OST_QUALITY_BINS ? OST_QUALITY_BINS - 1 : bin]++;
     if (quality < counts->least_quality ||
-        (quality == counts->least_quality && mesh->tet_label[tet] < counts->worst_tet)) {
+        (quality == counts->least_quality && ost_mesh_tet_number(mesh, tet) < counts->worst_tet)) {
         counts->least_quality = quality;
-        counts->worst_tet = mesh->tet_label[tet];
+        counts->worst_tet = ost_mesh_tet_number(mesh, tet);
     }
     count_edges(mesh, tet, counts);
 }

@@ -125,7 +125,8 @@ static OstStatus raise_tet(const OstMesh *mesh, const OstMaterialField *field, R
     return OST_RAISE(mesh->ctx, OST_CHECK_FAILED,
                      "tet %lld resists %s%s: with %.1e of |K| |motion|, where rounding explains %.1e at most; its "
                      "shape is too extreme for double precision, or the stiffness is computed wrongly",
-                     (long long)mesh->tet_label[worst.at], mode_word[at], at < 3 ? "" : " axis", worst.ratio, limit());
+                     (long long)ost_mesh_tet_number(mesh, worst.at), mode_word[at], at < 3 ? "" : " axis", worst.ratio,
+                     limit());
 }
 
 OstStatus ost_rigid_motion_of_tets(const OstMesh *mesh, const OstMaterialField *field, double *worst)
@@ -238,7 +239,7 @@ static OstStatus raise_row(const Rows *rows, Resistance together)
                      "explains %.1e at most; multigrid cannot rely on it, and the stiffness, or the rigid modes, are "
                      "computed wrongly",
                      mode_word[at], at < 3 ? "" : " axis",
-                     (long long)mesh->node_label[rows->system->node_of_row[worst.at]], worst.ratio, limit());
+                     (long long)ost_mesh_node_number(mesh, rows->system->node_of_row[worst.at]), worst.ratio, limit());
 }
 
 static OstStatus examine_rows(Rows *rows, double *worst)

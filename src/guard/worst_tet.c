@@ -19,7 +19,8 @@ static WorstTet find_worst(const OstMesh *mesh)
     WorstTet worst = {INFINITY, -1};
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
         const double quality = ost_tet_quality(mesh->coordinates, ost_mesh_nodes_of(mesh, tet));
-        if (quality < worst.quality || (quality == worst.quality && mesh->tet_label[tet] < mesh->tet_label[worst.tet]))
+        if (quality < worst.quality ||
+            (quality == worst.quality && mesh->tet_label[tet] < ost_mesh_tet_number(mesh, worst.tet)))
             worst = (WorstTet){quality, tet};
     }
     return worst;
@@ -34,9 +35,9 @@ OstStatus ost_guard_worst_tet(const OstMesh *mesh, char words[OST_WORST_TET_SIZE
     if (!(quality < plausible))
         return OST_SUCCESS;
     const int has_it = worst.tet >= 0 && worst.quality == quality;
-    OstGlobal label = has_it ? mesh->tet_label[worst.tet] : INT64_MAX;
+    OstGlobal label = has_it ? ost_mesh_tet_number(mesh, worst.tet) : INT64_MAX;
     OST_TRY(ost_min_numbers(mesh->ctx, 1, &label));
-    if (has_it && mesh->tet_label[worst.tet] == label)
+    if (has_it && ost_mesh_tet_number(mesh, worst.tet) == label)
         for (int i = 0; i < 12; i++) {
             const size_t vertex = (size_t)ost_mesh_nodes_of(mesh, worst.tet)[i / 3];
             middle[i % 3] += 0.25 * mesh->coordinates[3 * vertex + (size_t)(i % 3)];

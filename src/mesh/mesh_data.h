@@ -50,6 +50,7 @@ struct OstMeshChunk {
     OstLocal node_count, tet_count;
     double *coordinates;   /* node_count × 3 */
     OstGlobal *node_label; /* numbers as in the file; NULL: 1, 2, 3, ... */
+    OstGlobal node_shift;  /* these are so much more than in the file */
     OstGlobal *tet_nodes;  /* tet_count × nodes_per_tet */
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
     int relabelled;        /* the file's numbers of tets were no use, and were replaced */
@@ -61,8 +62,9 @@ struct OstMeshChunk {
     OstNames regions;
     int boundary_count;
     OstBoundary *boundaries;
-    int straighten; /* curved tets that fold over are made straight when the mesh is distributed, not refused */
-    char *file;     /* that it is read from, for messages; or NULL */
+    int straighten;    /* curved tets that fold over are made straight when the mesh is distributed, not refused */
+    int only_vertices; /* what is between vertices is left out afterwards: curved tets may fold over */
+    char *file;        /* that it is read from, for messages; or NULL */
 };
 
 /* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */
@@ -88,8 +90,10 @@ struct OstMesh {
     OstLocal tet_count, owned_tets;
     OstGlobal first_node;   /* global number of local node 0 after partition: owned nodes are first_node + i */
     OstGlobal *node_number; /* node_count: global numbers after partition (contiguous over ranks) */
-    OstGlobal *node_label;  /* node_count: numbers as in the file */
-    OstGlobal *tet_label;   /* tet_count */
+    OstGlobal *node_label;  /* node_count: numbers as in the file, but from 1: */
+    OstGlobal node_shift;   /* so much more than in a file that has lower ones */
+    OstGlobal *tet_label;   /* tet_count: likewise */
+    OstGlobal tet_shift;    /* a refined mesh has it no more */
     int of_cells;           /* as in the chunk; a refined mesh has it no more */
     double *coordinates;    /* node_count × 3 */
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
@@ -105,6 +109,16 @@ struct OstMesh {
     unsigned welded;            /* bits of the above, the same on all ranks; a refined mesh has those of the first */
     struct OstSurface *surface; /* once it was asked for (ost_mesh_surface); or NULL */
 };
+
+/* The file's numbers of a node and a tet, for messages. */
+static inline OstGlobal ost_mesh_node_number(const OstMesh *mesh, OstLocal node)
+{
+    return mesh->node_label[node] - mesh->node_shift;
+}
+static inline OstGlobal ost_mesh_tet_number(const OstMesh *mesh, OstLocal tet)
+{
+    return mesh->tet_label[tet] - mesh->tet_shift;
+}
 
 /* The local numbers of a tet's nodes. */
 static inline const OstLocal *ost_mesh_nodes_of(const OstMesh *mesh, OstLocal tet)

@@ -228,7 +228,7 @@ static void get_face(const Search *search, OstLocal number, Face *face)
     const OstLocal *node = search->surface->nodes + (size_t)number * (size_t)search->surface->nodes_per_face;
     const OstLocal tet = search->surface->tet[number];
     double side[2][3], area;
-    *face = (Face){.face = number, .tet = mesh->tet_label[tet]};
+    *face = (Face){.face = number, .tet = ost_mesh_tet_number(mesh, tet)};
     for (int v = 0; v < 3; v++) {
         face->node[v] = mesh->node_number[node[v]];
         memcpy(face->x + 3 * v, mesh->coordinates + 3 * (size_t)node[v], 3 * sizeof *face->x);

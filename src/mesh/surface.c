@@ -123,7 +123,7 @@ static OstStatus list_faces(const OstMesh *mesh, const unsigned char *marked, Fa
 static OstStatus raise_twins(const OstMesh *mesh, const Face *a, const Face *b)
 {
     char cells[2][OST_CELL_WORDS];
-    const OstGlobal label[2] = {mesh->tet_label[a->tet], mesh->tet_label[b->tet]};
+    const OstGlobal label[2] = {ost_mesh_tet_number(mesh, a->tet), ost_mesh_tet_number(mesh, b->tet)};
     const char *fault = a->twins > 1 || b->twins > 1 ? "share a face with a third tet" : "lie on one side of a face";
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "tets %lld%s and %lld%s %s; remove the doubled or overlapping tet",
                      (long long)label[0], ost_cell_words(mesh, label[0], cells[0]), (long long)label[1],

@@ -247,7 +247,7 @@ static OstStatus raise_for_tet(const OstScene *scene, int region, OstLocal tet)
         OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                   "gradient axes of region '%s', tet %lld: %s; its boundaries must differ, reach every connected "
                   "component of the region, and, for two, lie across each other",
-                  name, (long long)scene->mesh->tet_label[tet], reason));
+                  name, (long long)ost_mesh_tet_number(scene->mesh, tet), reason));
 }
 
 static OstStatus axes_from_potentials(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,

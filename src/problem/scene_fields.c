@@ -42,7 +42,7 @@ static OstStatus raise_for_tet(const OstScene *scene, OstPlace place, const char
     char reason[512];
     snprintf(reason, sizeof reason, "%s", ost_error_text(scene->ctx));
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d:%d: the field '%s', tet %lld of region '%s': %s",
-                     scene->c->path, place.line, place.column, field, (long long)mesh->tet_label[tet],
+                     scene->c->path, place.line, place.column, field, (long long)ost_mesh_tet_number(mesh, tet),
                      mesh->regions.name[mesh->tet_region[tet]], reason);
 }
 
@@ -169,7 +169,7 @@ static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseM
         if (!isfinite(field[k]))
             return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                              "the field '%s' has no number for tet %lld of region '%s', which it is asked for",
-                             stated->eigen_field, (long long)mesh->tet_label[tet],
+                             stated->eigen_field, (long long)ost_mesh_tet_number(mesh, tet),
                              mesh->regions.name[mesh->tet_region[tet]]);
     return OST_SUCCESS;
 }

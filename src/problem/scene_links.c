@@ -171,7 +171,7 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
         return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
                          "vertex %lld at (%g, %g, %g) is %.3g away from the faces that it is tied to; allow for that, "
                          "as in tolerance: %.2g, or select fewer vertices",
-                         (long long)scene->mesh->node_label[node], x[0], x[1], x[2], found.distance,
+                         (long long)ost_mesh_node_number(scene->mesh, node), x[0], x[1], x[2], found.distance,
                          1.1 * found.distance);
     for (int k = 0; k < found.count; k++) {
         if (found.number[k] == scene->mesh->node_number[node]) /* on both sides already */
@@ -247,7 +247,7 @@ static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *c
             mesh->ctx, OST_INVALID_INPUT,
             "vertex %lld at (%g, %g, %g) has no counterpart at (%g, %g, %g): both boundaries of a periodic "
             "pair need the same mesh",
-            (long long)mesh->node_label[node], x[0], x[1], x[2], target[0], target[1], target[2]);
+            (long long)ost_mesh_node_number(mesh, node), x[0], x[1], x[2], target[0], target[1], target[2]);
     for (int i = 0; i < 9; i++)
         strain[i] = factor * constraint->strain[place[i]];
     ost_apply3(strain, away, offset);

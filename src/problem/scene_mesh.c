@@ -231,6 +231,7 @@ OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_fi
     OstStatus status = check_ranks(c, *chunk);
     OST_THEN(ost_scene_materials(c, &(*chunk)->regions, from_file, materials));
     (*chunk)->straighten = c->straighten;
+    (*chunk)->only_vertices = c->order == 1 && c->refinement == 0;
     OST_THEN(partition(c, materials, chunk, mesh));
     OST_THEN(refine(c, &surface, mesh));
     OST_THEN(change_order(c, &surface, mesh));

@@ -141,6 +141,48 @@ done = run("mesh", write(folder, "short.bdf", DECK.replace("ENDDATA\n", "")), fo
 check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)
 check(not run("mesh", "deck.bdf", folder=folder).errors, "a whole deck is warned of")
 
+# VTK's attributes beside the data, as its writer has them, in text and in bytes; names with blanks.
+def vtk(numbers):
+    """A grid of two tets; `numbers`: its arrays of big-endian types, as the file has them."""
+    return b"".join(part.encode() if isinstance(part, str) else numbers(*part) + b"\n" for part in (
+        "# vtk DataFile Version 4.2\ntwo\n" + ("BINARY" if numbers is as_bytes else "ASCII") + "\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 5 double\n", (">f8", [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1]),
+        "CELLS 2 10\n", (">i4", [4, 0, 1, 2, 3, 4, 1, 2, 3, 4]), "CELL_TYPES 2\n", (">i4", [10, 10]),
+        "CELL_DATA 2\nSCALARS material int\nLOOKUP_TABLE rainbow\n", (">i4", [0, 3]),
+        "LOOKUP_TABLE rainbow 2\n", ("u1", [1, 0, 0, 1, 0, 1, 0, 1]), "TENSORS6 t double\n", (">f8", range(12)),
+        "GLOBAL_IDS GlobalElementId vtkIdType\n", (">i4", [0, 1]), "PEDIGREE_IDS of vtkIdType\n", (">i4", [4, 5]),
+        "FIELD FieldData 1\nYoung%20E%25 1 2 double\n", (">f8", [10, 20]),
+        "POINT_DATA 5\nCOLOR_SCALARS rgb 3\n", ("u1", [0] * 15), "NORMALS n double\n", (">f8", [0] * 15),
+        "TEXTURE_COORDINATES tc 2 double\n", (">f8", [0] * 10), "EDGE_FLAGS e int\n", (">i4", [0] * 5)))
+
+
+def as_bytes(kind, values):
+    return np.array(values, kind).tobytes()
+
+
+def as_text(_, values):
+    return " ".join(map(str, values)).encode()
+
+
+moved = set()
+for name, numbers in ("bytes", as_bytes), ("text", as_text):
+    write(folder, name + ".vtk", vtk(numbers))
+    write(folder, "attributes.yaml", f"""mesh: {{file: {name}.vtk}}
+materials: [{{region: all, youngs_modulus: {{field: Young E%}}, poissons_ratio: 0.3}}]
+constraints: [{{on: {{vertices: [1, 2, 3]}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{vertices: [5]}}, point_force: [0, 0, -0.001]}}]
+watch: {{energy: strain_energy}}
+""")
+    done = run("solve", "attributes.yaml", "--json", "-", "--output", "attributes.vtu", folder=folder)
+    check(done.exit_code == 0, done.errors)
+    report = json.loads(done.output)
+    moved.add(report["watched"]["energy"]["value"])
+    held = json.loads(run("mesh", name + ".vtk", "--json", "-", folder=folder).output)
+    check([r["name"] for r in held["regions"]] == ["volume-0", "volume-3"], f"{held}")
+check(len(moved) == 1, f"{moved}")
+done = run("mesh", write(folder, "much.vtk", vtk(as_bytes).replace(b"rgb 3", b"rgb 9999999")), folder=folder)
+check(done.exit_code == 2 and "colours stated, which do not fit" in done.errors, done.errors)
+
 # A text that was cut off is told so; a case is no mesh.
 text = open(stored("gmsh-linear.unv")).read()
 cut = text[:text.index("\n", len(text) // 3) - 2]
@@ -317,6 +359,54 @@ fine = inspect(stored("tetgen-linear.ele"), "fine.msh", "--refine", "1")
 check(fine["tets"] == 8 * 136 and abs(fine["volume"] - 2) < 1e-9, f"{fine['tets']} tets")
 check(inspect(stored("tetgen-linear.ele"), "--element-order", "2")["order"] == 2, "raised")
 check(inspect(stored("cae-quadratic.inp"), "--element-order", "1")["nodes"] == 23, "linear")
+
+# A curved tet that folds over is sound as a straight one, but not where it is refined first.
+TEN_NODES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (0.5, 0, 0), (2.5, 0, 0), (0, 0.5, 0), (0, 0, 0.5), (0, 0.5, 0.5), (0.5, 0, 0.5)]
+write(folder, "folded.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n" + "".join(
+    "%d %g %g %g\n" % (n, *x) for n, x in enumerate(TEN_NODES, 1)) + "$EndNodes\n$Elements\n1\n1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n")
+check(inspect("folded.msh", "straight.vtu", "--element-order", "1")["nodes"] == 4, "straight")
+done = run("mesh", "folded.msh", "--element-order", "1", "--refine", "1", folder=folder)
+check(done.exit_code == 2 and "folds over" in done.errors, done.errors)
+write(folder, "folded.yaml", """mesh: {file: folded.msh}
+element: {order: 1}
+materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]
+constraints: [{on: {vertices: [1, 2, 3]}, displacement: [0, 0, 0]}]
+loads: [{on: {vertices: [4]}, point_force: [0, 0, -0.001]}]
+""")
+for order, wanted in ((1, 0), (2, 2)):
+    done = run("check", "folded.yaml", "--set", f"element.order={order}", folder=folder)
+    check(done.exit_code == wanted and ("folds over" in done.errors) == (order == 2), done.errors)
+
+# TetGen counts from 1, or with -z from 0: `vertices` and messages have the file's numbers, what is written counts from 1.
+CORNERS, TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], [(0, 1, 2, 3), (1, 2, 3, 4)]
+found = {}
+for first in (0, 1):
+    write(folder, f"from{first}.node", "5 3 0 0\n" + "".join("%d %g %g %g\n" % (n + first, *p) for n, p in enumerate(CORNERS)))
+    write(folder, f"from{first}.ele",
+          "2 4 0\n" + "".join("%d %d %d %d %d\n" % (t + first, *(n + first for n in tet)) for t, tet in enumerate(TETS)))
+    for order in (1, 2):
+        write(folder, "counted.yaml", f"""mesh: {{file: from{first}.node, refine: {order - 1}}}
+element: {{order: {order}}}
+materials: [{{region: all, youngs_modulus: 10, poissons_ratio: 0.3}}]
+constraints: [{{on: {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}}}, displacement: [0, 0, 0]}}]
+loads: [{{on: {{vertices: [{4 + first}]}}, point_force: [0, 0, -0.001]}}]
+watch: {{tip: {{displacement: {{nearest: [1, 1, 1]}}}}}}
+""")
+        done = run("solve", "counted.yaml", "--json", "-", "--output", "counted.vtu", folder=folder)
+        check(done.exit_code == 0 and ("numbered from 0" in done.errors) == (first == 0), done.errors)
+        if order == 1:
+            write(folder, "clash.yaml", open(os.path.join(folder, "counted.yaml")).read().replace(
+                "constraints: [", f"constraints: [{{on: {{vertices: [{first}]}}, displacement: [1, 0, 0]}}, "))
+            clash = run("check", "clash.yaml", folder=folder)
+            check(clash.exit_code == 2 and f"vertex {first} is constrained to 1" in clash.errors, clash.errors)
+            inspected = inspect(f"from{first}.node")
+            check(inspected["components"][0]["first_tet"] == first, f"{inspected}")
+        found[first, order] = json.loads(done.output)["watched"]["tip"]["value"]
+    for ending in ("msh", "inp", "vtu"):
+        inspect(f"from{first}.node", f"from{first}.{ending}", "--refine", "1", "--element-order", "2")
+check(found[0, 1] == found[1, 1] and found[0, 2] == found[1, 2], f"{found}")
+for ending in ("msh", "inp", "vtu"):
+    check(open(os.path.join(folder, f"from0.{ending}")).read() == open(os.path.join(folder, f"from1.{ending}")).read(), ending)
 
 POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 write(folder, "two.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 8\n" + "".join("%g %g %g 0\n" % p for p in POINTS) +

@@ -69,9 +69,44 @@ class Render(unittest.TestCase):
 
     def test_von_mises_is_named_once(self):
         shade_of = runpy.run_path(RENDER)["shade_of"]
-        bodies = [SimpleNamespace(value=numpy.array([0.0, 1.0]))]
-        for field in ("von_mises", "stress", "stress:mises"):
-            self.assertEqual(shade_of(bodies, field).name.replace("stress:", ""), "von Mises")
+        bodies = [SimpleNamespace(value=numpy.array([0.0, 1.0]), envelope=False)]
+        for field, name in (("von_mises", "von Mises"), ("stress", "stress von Mises"), ("stress:mises", "stress von Mises"),
+                            ("largest_von_mises", "largest von Mises"), ("material_stress:11", "material stress 11"),
+                            ("principal_stress", "principal stress largest"), (None, "|u|")):
+            self.assertEqual(shade_of(bodies, field).name, name)
+
+    def test_parts_have_the_names_of_the_docs(self):
+        part_of = runpy.run_path(RENDER)["part_of"]
+        for width, parts in ((6, {"stress": "xx yy zz xy yz zx", "material_stress": "11 22 33 12 23 31",
+                                  "material_strain_tensor": "11 22 33 12 23 31"}),
+                             (3, {"principal_stress": "largest middle least", "principal_direction_1": "x y z"})):
+            for name, words in parts.items():
+                found = [part_of("", numpy.arange(width, dtype=float)[None], name, part)[0] for part in words.split()]
+                self.assertEqual(found, list(range(width)))
+        with self.assertRaisesRegex(Exception, "has no part 'length'; it has largest, middle, least, 0 to 2"):
+            part_of("", numpy.zeros((1, 3)), "principal_stress", "length")
+
+    def test_a_case_is_solved_and_its_envelope_drawn_at_rest(self):
+        picture, case = (os.path.join(self.folder.name, name) for name in ("case.png", "case.yaml"))
+        with open(case, "w") as stream:
+            stream.write("""mesh: {block: {size: [2, 1, 1], divisions: [2, 1, 1]}}
+materials: [{region: all, youngs_modulus: [3, 2, 1], poissons_ratio: 0}]
+constraints: [{on: {boundary: xmin}, displacement: [0, free, free]}, {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]},
+  {on: {nearest: [0, 1, 0]}, displacement: [0, free, 0]}]
+loads: [{on: {boundary: xmax}, total_force: [0.03, 0, 0]}]
+output: {fields: [displacement, load, reaction, material_stress]}
+""")
+        done = self.render(case, picture, "--size", "600x400", "--field", "material_stress:11")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, f"{picture}: largest |u| 0.02, drawn × 10\n")
+        with open(case, "a") as stream:
+            stream.write("cases: [{name: more, loads: [{on: {boundary: xmax}, total_force: [0.03, 0, 0]}]}]\n")
+        subprocess.run([os.environ["ORTHOSTAT_PROGRAM"], "solve", case, "--set", "output.envelope=true", "--output",
+                        os.path.join(self.folder.name, "both.vtkhdf")], check=True, capture_output=True)
+        envelope = os.path.join(self.folder.name, "both_envelope.vtkhdf")
+        done = self.render(envelope, picture, "--size", "600x400", "--scale", "5", "--field", "largest_von_mises")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, f"{picture}: largest |u| 0.04, drawn at rest\n")
 
     def test_colours_stand_for_the_field_asked_for(self):
         picture = os.path.join(self.folder.name, "field.png")

@@ -5,6 +5,7 @@
 #include "mesh/distribution/graph.h"
 #include "mesh/distribution/partition.h"
 #include "mesh_support.h"
+#include "orthostat/refine.h"
 
 /* A unit cube in six tets (nodes 0-7), for a hand-made fault each. */
 typedef struct Cube {
@@ -182,6 +183,22 @@ static void tets_that_fold_are_made_straight_if_asked(void **state)
     ost_mesh_destroy(&mesh);
 }
 
+static void tets_that_fold_may_become_linear(void **state)
+{
+    OstMeshChunk *cube = bent_cube();
+    OstMesh *mesh = NULL, *linear = NULL;
+    double volume = 0.0;
+    cube->only_vertices = 1;
+    assert_success(ost_mesh_distribute(ctx, &cube, &mesh));
+    assert_success(ost_mesh_linear(mesh, &linear, NULL));
+    for (OstLocal t = 0; t < linear->owned_tets; t++)
+        volume += ost_tet_volume(linear->coordinates, ost_mesh_nodes_of(linear, t));
+    assert_success(ost_sum(ctx, 1, &volume));
+    assert_close(volume, 1.0, 1e-14);
+    ost_mesh_destroy(&linear);
+    ost_mesh_destroy(&mesh);
+}
+
 static void labels_of_the_file_are_used(void **state)
 {
     Cube cube = sound_cube();
@@ -246,6 +263,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(vertices_without_tet_are_listed),
     cmocka_unit_test(numbers_must_fit_the_mesh),
     cmocka_unit_test(tets_that_fold_are_made_straight_if_asked),
+    cmocka_unit_test(tets_that_fold_may_become_linear),
     cmocka_unit_test(labels_of_the_file_are_used),
     cmocka_unit_test(a_boundary_belongs_to_the_body),
     cmocka_unit_test(fewer_nodes_than_ranks_are_refused),

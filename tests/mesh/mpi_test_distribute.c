@@ -2,7 +2,9 @@
 #include "support.h"
 
 #include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
 #include "mesh_support.h"
+#include "orthostat/refine.h"
 
 /* A mesh before partition, complete on every rank, to compare pieces with: node n has label n + 1, tet t has t + 1. */
 typedef struct Whole {
@@ -484,6 +486,58 @@ static void a_doubled_tet_is_named_by_the_surface(void **state)
     ost_mesh_destroy(&mesh);
 }
 
+/* Two tets between five nodes, with the labels of a file. */
+static OstMeshChunk *labelled_chunk(const OstGlobal node_label[5], const OstGlobal tet_label[2])
+{
+    static const double x[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
+    static const OstGlobal tets[] = {0, 1, 2, 3, 1, 2, 3, 4};
+    OstMeshChunk *chunk = hand_chunk(4, 5, x, 2, tets);
+    copy_array((size_t)chunk->node_count, sizeof(OstGlobal), node_label, (void **)&chunk->node_label);
+    copy_array((size_t)chunk->tet_count, sizeof(OstGlobal), tet_label, (void **)&chunk->tet_label);
+    return chunk;
+}
+
+static void labels_below_1_become_1_and_more(void **state)
+{
+    const struct {
+        OstGlobal node[5], tet[2], least[2], most[2], shift[2];
+    } table[] = {{{0, 1, 2, 3, 4}, {0, 1}, {1, 1}, {5, 2}, {1, 1}},
+                 {{7, 0, 3, 9, 5}, {4, 8}, {1, 4}, {10, 8}, {1, 0}},
+                 {{1, 3, 5, 7, 9}, {2, -5}, {1, 1}, {9, 8}, {0, 6}}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        OstMeshChunk *chunk = labelled_chunk(table[i].node, table[i].tet);
+        OstMesh *mesh = NULL, *fine = NULL, *linear = NULL;
+        assert_success(ost_mesh_distribute(ctx, &chunk, &mesh));
+        OstGlobal least[2] = {INT64_MAX, INT64_MAX}, most[2] = {-1, -1};
+        for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+            least[0] = mesh->node_label[n] < least[0] ? mesh->node_label[n] : least[0];
+            most[0] = mesh->node_label[n] > most[0] ? mesh->node_label[n] : most[0];
+        }
+        for (OstLocal t = 0; t < mesh->owned_tets; t++) {
+            least[1] = mesh->tet_label[t] < least[1] ? mesh->tet_label[t] : least[1];
+            most[1] = mesh->tet_label[t] > most[1] ? mesh->tet_label[t] : most[1];
+        }
+        assert_success(ost_min_numbers(ctx, 2, least));
+        assert_success(ost_max_numbers(ctx, 2, most));
+        assert_memory_equal(least, table[i].least, sizeof least);
+        assert_memory_equal(most, table[i].most, sizeof most);
+        assert_success(ost_mesh_raise(mesh, NULL, &fine));
+        assert_success(ost_mesh_linear(fine, &linear, NULL));
+        assert_int_equal(mesh->node_shift, table[i].shift[0]);
+        assert_int_equal(mesh->tet_shift, table[i].shift[1]);
+        assert_int_equal(linear->node_shift, table[i].shift[0]);
+        ost_mesh_destroy(&mesh);
+        ost_mesh_destroy(&fine);
+        ost_mesh_destroy(&linear);
+    }
+    const OstGlobal wide[] = {0, 1, 2, 3, INT64_MAX}, low[] = {INT64_MIN, 1};
+    OstMesh *mesh = NULL;
+    OstMeshChunk *chunk = labelled_chunk(wide, (const OstGlobal[]){1, 2});
+    assert_failure(ost_mesh_distribute(ctx, &chunk, &mesh), OST_INVALID_INPUT, "number them from 1");
+    chunk = labelled_chunk((const OstGlobal[]){1, 2, 3, 4, 5}, low);
+    assert_failure(ost_mesh_distribute(ctx, &chunk, &mesh), OST_INVALID_INPUT, "number them from 1");
+}
+
 static void time_is_booked_to_mesh_and_partition(void **state)
 {
     const long meshes = ost_ledger_entry(ctx, OST_LEDGER_MESH).entries;
@@ -510,6 +564,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(borders_run_along_what_is_stiff),
     cmocka_unit_test(a_mesh_is_cut_the_same_way_every_time),
     cmocka_unit_test(a_doubled_tet_is_named_by_the_surface),
+    cmocka_unit_test(labels_below_1_become_1_and_more),
     cmocka_unit_test(time_is_booked_to_mesh_and_partition),
 };
 

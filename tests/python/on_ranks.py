@@ -144,6 +144,7 @@ def load_cases_share_a_stiffness(folder):
     close(results["moved"].displacement - results["pull"].displacement, np.tile([0.004, 0, 0], (results["pull"].mesh.node_count, 1)), 1e-6)
     together = os.path.join(folder, "together.vtkhdf")
     orthostat.write_steps(results, together)
+    raises(ValueError, "no result to write", orthostat.write_steps, {}, together)
     assert os.path.exists(together)
     other = orthostat.solve({**BAR, "element": {"order": 2}})
     raises(orthostat.InvalidInput, "takes no other mesh", orthostat.write_steps, {**results, "other": other},
@@ -179,6 +180,8 @@ def fields_are_those_of_the_file(folder):
 def failures_are_exceptions_with_the_librarys_words(folder):
     raises(orthostat.FileFailed, "nowhere.yaml: cannot be opened", orthostat.solve, "nowhere.yaml")
     raises(orthostat.InvalidInput, "unknown key 'mush'", orthostat.solve, "mush: from_program")
+    raises(orthostat.InvalidInput, "unknown key 'mush'", orthostat.solve, b"mush: from_program")
+    raises(orthostat.FileFailed, "nowhere.yaml: cannot be opened", orthostat.solve, b"nowhere.yaml")
     raises(ValueError, "three shear moduli", orthostat.Material, [1, 2, 3], [0.1, 0.2, 0.3])
     raises(OSError, "nowhere.yaml", orthostat.solve, "nowhere.yaml")
     raises(orthostat.InvalidInput, "did you mean 'loads'", orthostat.solve, {**BAR, "loots": []})
@@ -238,6 +241,17 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
     assert np.array_equal(found_points, points) and np.array_equal(found_tets, tets)
     assert np.array_equal(scene.mesh.gather_tets(scene.mesh.regions), regions)
     close(scene.mesh.share(points), scene.mesh.points[:scene.mesh.owned_nodes])
+    gaps = os.path.join(folder, "gaps.node")  # labels from 0, with gaps, in another order than the nodes'
+    if rank == 0:
+        with open(gaps, "w") as stream, open(os.path.join(folder, "gaps.ele"), "w") as tet_stream:
+            label = [3 * (len(points) - 1 - n) for n in range(len(points))]
+            print(len(points), 3, 0, 0, *("\n%d %g %g %g" % (label[n], *x) for n, x in enumerate(points)), file=stream)
+            print(len(tets), 4, 0, *("\n%d %d %d %d %d" % (t, *(label[n] for n in tet)) for t, tet in enumerate(tets)),
+                  file=tet_stream)
+    for mesh in (scene.mesh.quadratic(), scene.mesh.refined(), orthostat.Mesh(gaps), orthostat.Mesh(gaps).quadratic()):
+        own = mesh.points[:mesh.owned_nodes]
+        assert np.array_equal(mesh.share(mesh.gather_nodes(own)), own) and len(own) > 0
+        raises(ValueError, f"rows for all {mesh.global_nodes} nodes", mesh.share, np.zeros(mesh.global_nodes + 1))
 
     # The same by shares of all ranks, and as a problem of its own parts.
     nodes, mine = np.array_split(np.arange(len(points)), size)[rank], np.array_split(np.arange(len(tets)), size)[rank]
@@ -277,7 +291,13 @@ def constraints_may_be_given_along_directions(folder):
         (np.ones(len(x), bool), [nan, 0, 0])])
     answer = problem.analysis().solve()
     close(answer.displacement, x * [0.01, 0, 0])
-    raises(ValueError, "there is no node 99", orthostat.Problem, mesh, steel, constraints=[([99], [0, 0, 0])])
+    own = mesh.owned_nodes
+    for nodes, words in (([99], "there is no node 99"), ([2 ** 32], "there is no node 4294967296"), ([0.6], "whole numbers"),
+                         (np.ones(own - 1, bool), f"each of the {own} nodes"),
+                         (np.ones((own, 1), bool), f"each of the {own} nodes")):
+        raises(ValueError, words, orthostat.Problem, mesh, steel, constraints=[(nodes, [0, 0, 0])])
+    masked = [(x[:own, 0] == 0, [0, 0, 0])]  # a mask may leave out ghosts
+    assert not orthostat.Problem(mesh, steel, constraints=masked, force=np.zeros((own, 3))).analysis().solve().displacement.any()
     close(mesh.gather_nodes(answer.reaction)[mesh.gather_nodes(x)[:, 0] == 2].sum(axis=0), [2, 0, 0], 1e-6)
 
 
@@ -365,6 +385,10 @@ def materials_have_their_matrices(folder):
     turned = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
     close(wood.compliance(turned)[1, 1], 1 / 10)
     close(wood.stiffness(turned)[1, 1], wood.stiffness()[0, 0])
+    for axes, words in ((np.ones((3, 3)), "e1 and e2 are not orthogonal"), (2 * np.eye(3), "e1 has length 2"),
+                        (np.diag([1, 1, -1]), "left-handed"), (np.full((3, 3), np.nan), "finite number")):
+        for matrix in wood.stiffness, wood.compliance:
+            raises(orthostat.InvalidInput, words, matrix, axes)
     close(orthostat.Material([8, 4, 2], 0.3).youngs_modulus, [8, 4, 2])
     assert orthostat.Material(2.0, 0.25).is_isotropic
 

@@ -55,7 +55,7 @@ static OstStatus make_room(OstLinks *links, OstLocal count)
 OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLeader *leader, const double place[3],
                         const double offset[3])
 {
-    const long long label = (long long)links->mesh->node_label[node];
+    const long long label = (long long)ost_mesh_node_number(links->mesh, node);
     if (links->of_node[node] >= 0)
         return OST_RAISE(links->ctx, OST_INVALID_INPUT,
                          "vertex %lld is to follow two others: two of tied, periodic and rigid faces meet there; leave "
@@ -212,7 +212,7 @@ static OstStatus raise_of(const OstLinks *links, const OstLink *link, const char
     if (links->path)
         snprintf(where, sizeof where, "%s:%d: ", links->path, link->line);
     return OST_RAISE(links->ctx, OST_INVALID_INPUT, "%svertex %lld at (%g, %g, %g) %s", where,
-                     (long long)links->mesh->node_label[link->node], x[0], x[1], x[2], text);
+                     (long long)ost_mesh_node_number(links->mesh, link->node), x[0], x[1], x[2], text);
 }
 
 static OstStatus check_follower(const OstLinks *links, const Leading *leading, const OstLink *link)

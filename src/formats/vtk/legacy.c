@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/vtk/grid.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <math.h>
@@ -38,6 +39,20 @@ static void next_word(OstMshCursor *cursor, char word[WORD])
         cursor->next++;
     }
     word[length] = '\0';
+}
+
+/* The next word as a name, in which VTK writes blanks and the like as %20. */
+static void next_name(OstMshCursor *cursor, char name[WORD])
+{
+    char *to = name;
+    next_word(cursor, name);
+    for (const char *from = name; *from; from++) {
+        const char digits[] = {from[0] == '%' ? from[1] : '\0', from[1] ? from[2] : '\0', '\0'};
+        const int coded = isxdigit((unsigned char)digits[0]) && isxdigit((unsigned char)digits[1]);
+        *to++ = coded ? (char)strtol(digits, NULL, 16) : *from;
+        from += coded ? 2 : 0;
+    }
+    *to = '\0';
 }
 
 static OstStatus read_type(Legacy *legacy, const char *word, OstVtkType *type)
@@ -269,13 +284,26 @@ static OstStatus read_array(Legacy *legacy, const char *name, OstVtkType type, O
     return status;
 }
 
+/* After COLOR_SCALARS or LOOKUP_TABLE: name, components or entries, then a byte or, in text, a number for each. */
+static OstStatus skip_colours(Legacy *legacy, OstGlobal times)
+{
+    char name[WORD];
+    OstGlobal count = 0;
+    const OstVtkType byte = {OST_VTK_UNSIGNED, 1};
+    next_word(legacy->cursor, name);
+    OST_TRY(read_count(legacy, "a count of colours", &count));
+    ost_msh_rest_of_line(legacy->cursor);
+    OST_TRY(ost_msh_check_count(legacy->cursor, "colours", count, times > 0 ? times : 1));
+    return read_numbers(legacy, "a colour", byte, count * times, NULL);
+}
+
 /* SCALARS name type [components], then LOOKUP_TABLE name. */
 static OstStatus read_scalars(Legacy *legacy)
 {
     char name[WORD], word[WORD];
     OstVtkType type;
     OstMshCursor *cursor = legacy->cursor;
-    next_word(cursor, name);
+    next_name(cursor, name);
     next_word(cursor, word);
     OST_TRY(read_type(legacy, word, &type));
     const OstMshText rest = ost_msh_rest_of_line(cursor);
@@ -289,11 +317,14 @@ static OstStatus read_scalars(Legacy *legacy)
     return read_array(legacy, name, type, components, legacy->tuples);
 }
 
-static OstStatus read_attribute(Legacy *legacy, int components)
+/* Name and type; before the type `components`, if 0. */
+static OstStatus read_attribute(Legacy *legacy, OstGlobal components)
 {
     char name[WORD];
     OstVtkType type;
-    next_word(legacy->cursor, name);
+    next_name(legacy->cursor, name);
+    if (components == 0)
+        OST_TRY(ost_msh_size(legacy->cursor, "the number of components", &components));
     OST_TRY(read_line_type(legacy, &type));
     return read_array(legacy, name, type, components, legacy->tuples);
 }
@@ -313,16 +344,16 @@ static OstStatus read_fields(Legacy *legacy)
     OstMshCursor *cursor = legacy->cursor;
     OstGlobal count = 0;
     char name[WORD], word[WORD];
-    next_word(cursor, name);
+    next_name(cursor, name);
     OST_TRY(read_count(legacy, "the number of arrays", &count));
     ost_msh_rest_of_line(cursor);
     for (OstGlobal a = 0; a < count; a++) {
         OstGlobal components = 0, tuples = 0;
         OstVtkType type;
-        next_word(cursor, name);
+        next_name(cursor, name);
         if (strcasecmp(name, "METADATA") == 0) {
             skip_metadata(cursor);
-            next_word(cursor, name);
+            next_name(cursor, name);
         }
         OST_TRY(ost_msh_size(cursor, "the number of components", &components));
         OST_TRY(ost_msh_size(cursor, "the number of entries", &tuples));
@@ -347,6 +378,12 @@ static OstStatus begin_data(Legacy *legacy, int on_points)
                                       : OST_RAISE_MSH(legacy->cursor, "data of %" PRId64 " %s, and there are %" PRId64,
                                                       legacy->tuples, on_points ? "points" : "cells", expected);
 }
+
+static const struct {
+    const char *word;
+    int components; /* 0: the file says */
+} attributes[] = {{"VECTORS", 3},    {"NORMALS", 3},      {"TENSORS", 9},    {"TENSORS6", 6},
+                  {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}, {"EDGE_FLAGS", 1}, {"TEXTURE_COORDINATES", 0}};
 
 static OstStatus read_keyword(Legacy *legacy, const char *word)
 {
@@ -375,10 +412,13 @@ static OstStatus read_keyword(Legacy *legacy, const char *word)
         return read_fields(legacy);
     if (strcasecmp(word, "SCALARS") == 0)
         return read_scalars(legacy);
-    if (strcasecmp(word, "VECTORS") == 0 || strcasecmp(word, "NORMALS") == 0)
-        return read_attribute(legacy, 3);
-    if (strcasecmp(word, "TENSORS") == 0)
-        return read_attribute(legacy, 9);
+    for (size_t a = 0; a < sizeof attributes / sizeof *attributes; a++)
+        if (strcasecmp(word, attributes[a].word) == 0)
+            return read_attribute(legacy, attributes[a].components);
+    if (strcasecmp(word, "COLOR_SCALARS") == 0)
+        return skip_colours(legacy, legacy->tuples);
+    if (strcasecmp(word, "LOOKUP_TABLE") == 0)
+        return skip_colours(legacy, 4);
     if (strcasecmp(word, "METADATA") == 0) {
         skip_metadata(legacy->cursor);
         return OST_SUCCESS;

@@ -175,6 +175,7 @@ static OstStatus fill_nodes(const Making *making)
     OstMeshChunk *chunk = making->chunk;
     OST_TRY(OST_NEW(chunk->ctx, &chunk->coordinates, 3 * (size_t)chunk->node_count));
     OST_TRY(OST_NEW(chunk->ctx, &chunk->node_label, chunk->node_count));
+    chunk->node_shift = making->forest->mesh->node_shift;
     for (OstLocal n = 0; n < forest->vertex_count; n++) {
         if (making->number[n] < 0 || !is_held(forest, n))
             continue;

@@ -10,9 +10,9 @@
  */
 OstStatus ost_check_chunk(OstMeshChunk *chunk);
 
-/* Collective. Checks the rest on the distributed mesh: no tet is inverted, flat or folded, every vertex is used, and
- * every boundary item is a face, an edge or a vertex of a tet. */
-OstStatus ost_check_mesh(OstMesh *mesh);
+/* Collective. Checks the rest on the distributed mesh: no tet is inverted, flat or (`curved`) folded, every vertex is
+ * used, and every boundary item is a face, an edge or a vertex of a tet. */
+OstStatus ost_check_mesh(OstMesh *mesh, int curved);
 
 /* Collective. Raises OST_INVALID_INPUT, with the label, if a quadratic tet folds over at one of its vertices; or, where
  * the mesh says `straighten`, straightens the edges of such tets and warns. */

@@ -194,12 +194,12 @@ static OstStatus check_items(const OstMesh *mesh, const Incidence *incidence)
     return OST_SUCCESS;
 }
 
-OstStatus ost_check_mesh(OstMesh *mesh)
+OstStatus ost_check_mesh(OstMesh *mesh, int curved)
 {
     Incidence incidence = {0};
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(check_volumes(mesh));
-    if (mesh->nodes_per_tet == 10)
+    if (curved && mesh->nodes_per_tet == 10)
         OST_TRY_DONE(ost_check_folds(mesh));
     OST_TRY_DONE(ost_agree(mesh->ctx, ost_incidence_build(mesh->ctx, mesh->owned_nodes, mesh->tet_count,
                                                           mesh->nodes_per_tet, mesh->tet_nodes, &incidence)));

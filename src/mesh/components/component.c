@@ -50,7 +50,8 @@ static void measure(const OstMesh *mesh, OstComponents *components)
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
         OstComponent *component = &components->component[components->of_tet[t]];
         component->tets++;
-        component->first_tet = mesh->tet_label[t] < component->first_tet ? mesh->tet_label[t] : component->first_tet;
+        if (ost_mesh_tet_number(mesh, t) < component->first_tet)
+            component->first_tet = ost_mesh_tet_number(mesh, t);
         for (int v = 0; v < 4 && components->count > 1; v++)
             widen(mesh->coordinates + 3 * (size_t)ost_mesh_nodes_of(mesh, t)[v], component);
     }

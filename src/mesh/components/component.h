@@ -8,7 +8,7 @@
  */
 typedef struct OstComponent {
     OstGlobal tets;
-    OstGlobal first_tet; /* its lowest label */
+    OstGlobal first_tet; /* its lowest number of a tet in the file */
     double low[3], high[3];
 } OstComponent;
 

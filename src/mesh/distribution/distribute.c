@@ -24,6 +24,7 @@ static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
     mesh->nodes_per_tet = chunk->nodes_per_tet;
     mesh->fields = chunk->fields;
     mesh->of_cells = chunk->of_cells;
+    mesh->node_shift = chunk->node_shift;
     mesh->global_nodes = chunk->global_nodes;
     mesh->global_tets = chunk->global_tets;
     mesh->regions = chunk->regions;
@@ -153,6 +154,46 @@ static OstStatus name_file(const OstMeshChunk *chunk, OstStatus status)
     return status;
 }
 
+/* Local. The least label if it is below 1, else 1; and the greatest, negated. */
+static void find_range(OstLocal count, const OstGlobal *label, OstGlobal range[2])
+{
+    range[0] = 1;
+    range[1] = -1;
+    for (OstLocal i = 0; i < count; i++) {
+        range[0] = label[i] < range[0] ? label[i] : range[0];
+        range[1] = label[i] > -range[1] ? -label[i] : range[1];
+    }
+}
+
+/* `shift`: grows by what the labels do. */
+static OstStatus shift_labels(const OstMesh *mesh, const char *what, const OstGlobal range[2], OstLocal count,
+                              OstGlobal *label, OstGlobal *shift)
+{
+    if (range[0] < -OST_LARGEST_LABEL || (range[0] < 1 && range[1] < -OST_LARGEST_LABEL))
+        return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                         "%s are numbered from %lld to %lld, too wide a range; number them from 1", what,
+                         (long long)range[0], -(long long)range[1]);
+    for (OstLocal i = 0; i < count; i++)
+        label[i] += 1 - range[0];
+    *shift += 1 - range[0];
+    return OST_SUCCESS;
+}
+
+/* Collective. Labels of new nodes and tets are made of these, and other programs know no number below 1. */
+static OstStatus number_from_one(const char *file, OstMesh *mesh)
+{
+    OstGlobal range[4];
+    find_range(mesh->owned_nodes, mesh->node_label, range);
+    find_range(mesh->owned_tets, mesh->tet_label, range + 2);
+    OST_TRY(ost_min_numbers(mesh->ctx, 4, range));
+    OST_TRY(shift_labels(mesh, "vertices", range, mesh->node_count, mesh->node_label, &mesh->node_shift));
+    OST_TRY(shift_labels(mesh, "tets", range + 2, mesh->tet_count, mesh->tet_label, &mesh->tet_shift));
+    if (range[0] < 1)
+        ost_log(mesh->ctx, OST_LOG_NORMAL, "%s: vertices are numbered from %lld; in results they are from 1",
+                file ? file : "mesh", (long long)range[0]);
+    return OST_SUCCESS;
+}
+
 static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMesh **mesh)
 {
     OstContext *ctx = chunk->ctx;
@@ -162,7 +203,8 @@ static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMe
     (*mesh)->straighten = chunk->straighten;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
     OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : partition_and_move(chunk, tets, *mesh));
-    return name_file(chunk, ost_check_mesh(*mesh));
+    OST_TRY(name_file(chunk, ost_check_mesh(*mesh, !chunk->only_vertices)));
+    return name_file(chunk, number_from_one(chunk->file, *mesh));
 }
 
 OstStatus ost_mesh_distribute(OstContext *ctx, OstMeshChunk **chunk, OstMesh **mesh)

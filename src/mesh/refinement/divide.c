@@ -84,8 +84,8 @@ static OstStatus gather_item(const Making *making, const OstBoundary *boundary, 
         if (edge < 0)
             return OST_RAISE(parent->ctx, OST_INVALID_INPUT,
                              "boundary '%s' has an item between vertices %lld and %lld, which no tet's edge joins",
-                             boundary->name, (long long)parent->node_label[nodes[e]],
-                             (long long)parent->node_label[nodes[(e + 1) % vertices]]);
+                             boundary->name, (long long)ost_mesh_node_number(parent, nodes[e]),
+                             (long long)ost_mesh_node_number(parent, nodes[(e + 1) % vertices]));
         nodes[vertices + e] = parent->node_count + edge;
     }
     return OST_SUCCESS;
@@ -215,6 +215,7 @@ static OstStatus fill_nodes(Making *making)
     OstMesh *mesh = making->mesh;
     OST_TRY(OST_NEW(mesh->ctx, &mesh->coordinates, 3 * (size_t)mesh->node_count));
     OST_TRY(OST_NEW(mesh->ctx, &mesh->node_label, mesh->node_count));
+    mesh->node_shift = making->mid->mesh->node_shift;
     for (OstLocal n = 0; n < mid->count; n++) {
         const OstLocal i = making->local[n] - 1;
         if (i < 0)

@@ -24,7 +24,7 @@ static OstStatus number_vertices(const OstMesh *quadratic, OstLocal *vertex, Ost
                 quadratic->ctx, OST_INVALID_INPUT,
                 "node %lld is a vertex of one tet and halfway along an edge of another; make the tets meet "
                 "in whole edges",
-                (long long)quadratic->node_label[n]);
+                (long long)ost_mesh_node_number(quadratic, n));
         const int is_vertex = vertex[n] == IS_VERTEX;
         vertex[n] = is_vertex ? linear->node_count++ : -1;
         if (is_vertex && n < quadratic->owned_nodes)
@@ -37,6 +37,7 @@ static OstStatus fill_nodes(const OstMesh *quadratic, const OstLocal *vertex, Os
 {
     OST_TRY(OST_NEW(linear->ctx, &linear->coordinates, 3 * (size_t)linear->node_count));
     OST_TRY(OST_NEW(linear->ctx, &linear->node_label, linear->node_count));
+    linear->node_shift = quadratic->node_shift;
     OST_TRY(OST_NEW(linear->ctx, &linear->node_number, linear->node_count));
     for (OstLocal n = 0; n < quadratic->node_count; n++) {
         if (vertex[n] < 0)

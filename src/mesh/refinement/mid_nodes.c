@@ -128,19 +128,12 @@ done:
 /* The highest label of a vertex. Raises an error if six labels for each tet do not fit in 64 bits after it. */
 static OstStatus find_highest_label(const OstMesh *mesh, OstGlobal *highest)
 {
-    OstGlobal most[3] = {0, 0, -1}; /* vertex label, tet label, and 0 if a tet label is not positive */
+    OstGlobal most[2] = {0, 0}; /* vertex label, tet label */
     for (OstLocal n = 0; n < mesh->owned_nodes; n++)
         most[0] = mesh->node_label[n] > most[0] ? mesh->node_label[n] : most[0];
-    for (OstLocal t = 0; t < mesh->owned_tets; t++) {
-        const OstGlobal label = mesh->tet_label[t];
-        most[1] = label > most[1] ? label : most[1];
-        most[2] = label < 1 ? 0 : most[2];
-    }
-    OST_TRY(ost_max_numbers(mesh->ctx, 3, most));
-    if (most[2] == 0)
-        return OST_RAISE(
-            mesh->ctx, OST_INVALID_INPUT,
-            "a tet's label is not positive, so no labels of new nodes can be made of it; number tets from 1");
+    for (OstLocal t = 0; t < mesh->owned_tets; t++)
+        most[1] = mesh->tet_label[t] > most[1] ? mesh->tet_label[t] : most[1];
+    OST_TRY(ost_max_numbers(mesh->ctx, 2, most));
     if (most[1] > (INT64_MAX - most[0]) / 8)
         return OST_RAISE(mesh->ctx, OST_LIMIT_EXCEEDED,
                          "tet label %lld is too large to make the labels of new nodes and tets of; number tets from 1",

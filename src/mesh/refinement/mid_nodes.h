@@ -39,7 +39,7 @@ typedef struct MidNodes {
 } MidNodes;
 
 /* Collective. Start from {0}; clear it also after a failure. Raises OST_LIMIT_EXCEEDED if the new nodes' labels
- * overflow, OST_INVALID_INPUT if a tet's label is not positive. */
+ * overflow. */
 OstStatus ost_mid_nodes_create(const OstMesh *mesh, const OstShapeSurface *shape, MidNodes *mid);
 void ost_mid_nodes_clear(MidNodes *mid);
 

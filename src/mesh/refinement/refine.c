@@ -83,7 +83,7 @@ static OstStatus refine_linear(Refinement *refinement)
         refinement->turn[t] = choose_turn(&mid, t);
     OST_TRY_DONE(ost_mesh_divide(&mid, &refining, refinement->turn, &refinement->fine, &refinement->origin));
     if (refinement->quadratic || has_shape(refinement))
-        OST_TRY_DONE(ost_check_mesh(refinement->fine));
+        OST_TRY_DONE(ost_check_mesh(refinement->fine, 1));
 done:
     ost_mid_nodes_clear(&mid);
     return status;
