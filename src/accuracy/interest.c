@@ -85,7 +85,8 @@ static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, 
     OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &held, mesh->node_count)));
     for (OstLocal n = 0; n < mesh->node_count; n++)
         held[n] = ost_supports_held(problem->supports, n);
-    const OstStatus status = ost_select_shared(mesh, held, borne->count, borne->nodes, &borne->shared);
+    const OstStatus status =
+        ost_select_shared(problem->scene->c, mesh, held, borne->count, borne->nodes, &borne->shared);
     OST_FREE(held);
     return status;
 }

@@ -11,8 +11,8 @@ OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelec
 /* Collective. Which nodes of a selection other supports hold too, along x, y and z (bits 1, 2, 4): those at an edge of
  * its faces behind which faces of the surface are held that are not selected. What acts there is borne by both. `held`
  * and `*shared` (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
-OstStatus ost_select_shared(const OstMesh *mesh, const unsigned char *held, OstLocal count, const OstLocal *nodes,
-                            unsigned char **shared);
+OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
+                            const OstLocal *nodes, unsigned char **shared);
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */
 int ost_selection_names(const OstSelection *selection, const char *boundary);

@@ -160,29 +160,65 @@ done:
 /* Of nodes, beside bits for x, y and z. */
 enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7 };
 
-static void look_at_face(const OstSurface *surface, OstLocal face, const unsigned char *held, unsigned char *flags)
+/* Faces between selected nodes are those of the selection. Others between nodes `in` one support (NULL: not asked)
+ * leave bits at their nodes for what all of these are held along. */
+static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held,
+                          unsigned char *flags)
 {
-    const OstLocal *node = surface->nodes + (size_t)face * (size_t)surface->nodes_per_face;
-    unsigned along = ALONG, selected = SELECTED;
-    for (int k = 0; k < surface->nodes_per_face; k++) {
-        along &= held[node[k]];
-        selected &= flags[node[k]];
+    for (OstLocal f = 0; f < surface->count; f++) {
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
+        unsigned along = ALONG, selected = SELECTED;
+        for (int k = 0; k < surface->nodes_per_face; k++) {
+            along &= in && in[node[k]] ? held[node[k]] : 0U;
+            selected &= flags[node[k]];
+        }
+        for (int k = 0; k < surface->nodes_per_face; k++)
+            flags[node[k]] |= (unsigned char)(selected ? HAS_FACE : along);
     }
-    for (int k = 0; k < surface->nodes_per_face; k++)
-        flags[node[k]] |= (unsigned char)(selected ? HAS_FACE : along);
 }
 
-OstStatus ost_select_shared(const OstMesh *mesh, const unsigned char *held, OstLocal count, const OstLocal *nodes,
-                            unsigned char **shared)
+/* Boundaries one by one: sides of a body one tet thick lie between two of them. */
+static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
+                                 const OstSelection *on, const unsigned char *held, unsigned char *flags)
+{
+    unsigned char *in = NULL;
+    if (on->kind != OST_SELECT_BOUNDARY) {
+        OST_TRY(ost_select_flags(c, mesh, on, &in));
+        look_at_faces(surface, in, held, flags);
+        OST_FREE(in);
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &in, mesh->node_count)));
+    for (int b = 0; b < mesh->boundary_count; b++) {
+        const OstBoundary *boundary = &mesh->boundaries[b];
+        if (!ost_selection_names(on, boundary->name))
+            continue;
+        memset(in, 0, (size_t)mesh->node_count);
+        for (size_t n = 0; n < (size_t)boundary->count * (size_t)boundary->nodes_per_item; n++)
+            in[boundary->nodes[n]] = 1;
+        look_at_faces(surface, in, held, flags);
+    }
+    OST_FREE(in);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
+                            const OstLocal *nodes, unsigned char **shared)
 {
     const OstSurface *surface;
     OST_TRY(ost_mesh_surface(mesh, &surface));
-    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count)));
-    for (OstLocal n = 0; n < count; n++)
+    OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count));
+    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         (*shared)[nodes[n]] = SELECTED;
-    for (OstLocal f = 0; f < surface->count; f++)
-        look_at_face(surface, f, held, *shared);
-    for (OstLocal n = 0; n < mesh->node_count; n++)
+    if (status == OST_SUCCESS)
+        look_at_faces(surface, NULL, held, *shared);
+    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
+        if (!ost_constraint_links(&c->constraints[k]))
+            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, *shared);
+    for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
+        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, *shared);
+    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
         (*shared)[n] = (*shared)[n] >= (SELECTED | HAS_FACE) ? (*shared)[n] & ALONG & held[n] : 0;
-    return ost_halo_import(mesh->halo, 1, *shared);
+    OST_THEN(ost_halo_import(mesh->halo, 1, *shared));
+    return status;
 }

@@ -109,7 +109,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     double sum[3] = {0.0};
     int does_act = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
-    OstStatus status = ost_select_shared(scene->mesh, result->held, count, nodes, &shared);
+    OstStatus status = ost_select_shared(scene->c, scene->mesh, result->held, count, nodes, &shared);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes)
             add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
