@@ -192,7 +192,7 @@ static int is_static(const OstCase *c, const OstWatch *watch)
 {
     int yes = c->spring_count == 0;
     for (int k = 0; k < c->constraint_count; k++)
-        yes &= holds_all(&watch->on, &c->constraints[k].on);
+        yes &= c->constraints[k].kind == OST_CONSTRAIN_TIED || holds_all(&watch->on, &c->constraints[k].on);
     return yes;
 }
 
