@@ -57,8 +57,9 @@ typedef struct OstNewtonReport {
     int rounding_limited;     /* rounding, and not the residual asked for, ended an iteration */
     int jumps;                /* load steps over which the body jumped from one state to another: snap-through */
     double jump_at;           /* load factor at the end of the last of these */
-    int stability_unknown;    /* whether the last state is stable could not be told (mixed form) */
-    double seconds;           /* of Newton's method */
+    int stability_unknown; /* whether the last state is stable could not be told: 1 for its pressures, 2 for a load that
+                              has no work function; else 0 */
+    double seconds;        /* of Newton's method */
 } OstNewtonReport;
 
 /* The estimated error of the answer that the mesh and its elements make (not that of the equations, which OstChecks

@@ -231,6 +231,7 @@ static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     OST_TRY(check_load_cases(yaml, keys[CASES].value, c));
     OST_TRY(ost_check_envelope(yaml, keys[CASES].value, keys[OUTPUT].value, c));
+    OST_TRY(ost_check_probe_files(yaml, keys[OUTPUT].value, c));
     if (c->interest > 0 && c->free_body)
         return ost_yaml_raise(yaml, keys[ACCURACY].value,
                               "a free body has no error of '%.80s': how far it moves as a whole is not given; leave "

@@ -43,6 +43,21 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
     }
 }
 
+/* Each load case by itself. */
+static void count_cases(const OstCase *c, OstEffectFacts *facts)
+{
+    facts->cases = c->load_case_count;
+    for (int k = 0; k < c->load_case_count; k++) {
+        const OstCase *one = c->load_cases[k].c;
+        int is_linear = 0;
+        for (int i = 0; i < one->constraint_count; i++)
+            is_linear |= ost_constraint_links(&one->constraints[i]);
+        for (int i = 0; i < one->load_count; i++)
+            is_linear |= one->loads[i].kind == OST_LOAD_DISTRIBUTING;
+        facts->linear_cases += is_linear;
+    }
+}
+
 static void count_springs(const OstCase *c, OstEffectFacts *facts)
 {
     facts->springs = c->spring_count;
@@ -105,6 +120,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
         plan->facts.slenderness = of_diagonals * plan->slenderness;
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
+    count_cases(c, &facts);
     count_springs(c, &facts);
     facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
                            : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
@@ -176,7 +192,7 @@ static int is_static(const OstCase *c, const OstWatch *watch)
 {
     int yes = c->spring_count == 0;
     for (int k = 0; k < c->constraint_count; k++)
-        yes &= holds_all(&watch->on, &c->constraints[k].on);
+        yes &= c->constraints[k].kind == OST_CONSTRAIN_TIED || holds_all(&watch->on, &c->constraints[k].on);
     return yes;
 }
 

@@ -206,6 +206,39 @@ OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, cons
     return OST_SUCCESS;
 }
 
+/* Are 'a' with probe 'x_l' and 'a_x' with 'l' one file? `longer` begins with `shorter` and an underscore. */
+static int share_file(const char *shorter, const OstProbe *of_shorter, const char *longer, const OstProbe *of_longer)
+{
+    const char *rest = longer + strlen(shorter) + 1;
+    const size_t length = strlen(rest);
+    return strncasecmp(of_shorter->name, rest, length) == 0 && of_shorter->name[length] == '_' &&
+           strcasecmp(of_shorter->name + length + 1, of_longer->name) == 0;
+}
+
+static OstStatus check_probes_of(const OstYaml *yaml, const OstYamlNode *output, const OstCase *c,
+                                 const OstLoadCase *shorter, const OstLoadCase *longer)
+{
+    const size_t length = strlen(shorter->name);
+    if (strncasecmp(shorter->name, longer->name, length) != 0 || longer->name[length] != '_')
+        return OST_SUCCESS;
+    for (int p = 0; p < c->probe_count; p++)
+        for (int q = 0; q < c->probe_count; q++)
+            if (share_file(shorter->name, &c->probes[p], longer->name, &c->probes[q]))
+                return ost_yaml_raise(yaml, output,
+                                      "the tables of the probe '%s' in the load case '%s', in line %d, and of '%s' in "
+                                      "'%s' have the same file name; choose another name",
+                                      c->probes[p].name, shorter->name, shorter->line, c->probes[q].name, longer->name);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_check_probe_files(const OstYaml *yaml, const OstYamlNode *output, const OstCase *c)
+{
+    for (int k = 0; k < c->load_case_count && c->probe_count > 0; k++)
+        for (int other = 0; other < c->load_case_count; other++)
+            OST_TRY(check_probes_of(yaml, output, c, &c->load_cases[k], &c->load_cases[other]));
+    return OST_SUCCESS;
+}
+
 void ost_load_cases_release(OstCase *c)
 {
     for (int k = 0; k < c->load_case_count; k++) {

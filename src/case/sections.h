@@ -34,6 +34,9 @@ OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int 
 OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output,
                              const OstCase *c);
 
+/* Do the tables of probes in load cases have names of their own? */
+OstStatus ost_check_probe_files(const OstYaml *yaml, const OstYamlNode *output, const OstCase *c);
+
 /* Local. Warns of what is asked for along axes of which one is stated and the others lie anywhere, load cases too. */
 void ost_warn_arbitrary_axes(const OstCase *c);
 

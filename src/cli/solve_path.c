@@ -10,6 +10,7 @@
 #include "study/watch.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 OstStatus ost_cli_check_path_outputs(const OstCase *c, const char *output)
 {
@@ -95,6 +96,22 @@ static OstStatus take_steps(const OstScene *scene, const char *output, OstPath *
     return status;
 }
 
+/* The steps that are done are listed with those to come. */
+static void warn_of_missing_steps(OstContext *ctx, const char *output, int done)
+{
+    char name[OST_LONGEST_PATH];
+    for (int number = 1; number <= done && ost_rank(ctx) == 0; number++) {
+        ost_path_step_name(output, number, sizeof name, name);
+        if (access(name, F_OK) == 0)
+            continue;
+        ost_warn(ctx,
+                 "step %d of the path is done, but its file %s is not there, which the list of steps names: had the "
+                 "output another name before? Without --resume the path begins anew",
+                 number, name);
+        return;
+    }
+}
+
 OstStatus ost_cli_solve_path(const OstScene *scene, const char *output, int resumes, OstPath **path, OstResult **result)
 {
     OstContext *ctx = scene->ctx;
@@ -103,6 +120,7 @@ OstStatus ost_cli_solve_path(const OstScene *scene, const char *output, int resu
     ost_path_file_name(output, OST_PATH_CHECKPOINT, sizeof checkpoint, checkpoint);
     if (resumes) {
         OST_TRY(ost_path_resume(*path, checkpoint));
+        warn_of_missing_steps(ctx, output, ost_path_done(*path));
         ost_log(ctx, OST_LOG_NORMAL,
                 ost_path_done(*path) > 0 ? "%s: %d of %d steps are done; the path goes on"
                                          : "%s: no checkpoint, so the path begins anew (%d of %d steps are done)",

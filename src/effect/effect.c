@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 _Static_assert((int)OST_EFFECT_END <= (int)OST_LEDGER_ACCOUNTS, "the ledger has no room for so many effects");
 
@@ -108,10 +109,19 @@ static int has_links(const OstEffectFacts *f)
     return f->rigid_faces + f->ties + f->periodic > 0;
 }
 
-/* Moved couplings are found by superposition of solves for displacements. */
+/* Moved couplings are found by superposition of solves for displacements. Several load cases: is each? */
 static int is_solved_linearly(const OstEffectFacts *f)
 {
-    return has_links(f) || f->moved_couplings > 0;
+    return f->cases > 0 ? f->linear_cases == f->cases : has_links(f) || f->moved_couplings > 0;
+}
+
+/* To what the load cases that are not solved linearly do, says which others there are. */
+static void except_linear(const OstEffectFacts *f, OstEffectState *state)
+{
+    const size_t used = strlen(state->reason);
+    if (f->linear_cases > 0)
+        snprintf(state->reason + used, sizeof state->reason - used, "; not in %d of %d load cases", f->linear_cases,
+                 f->cases);
 }
 
 static const char free_is_linear[] = "a free body is solved linearly";
@@ -152,6 +162,8 @@ static void mixed(const OstEffectFacts *f, OstEffectState *state)
         on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
            "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
            f->nearly_incompressible, f->materials);
+    if (!why)
+        except_linear(f, state);
 }
 
 static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
@@ -180,6 +192,8 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     else
         on(state, 0.0, "auto: a linear solve, then Newton's method (%s) where that is off by more than %g %%",
            f->formulation, 100.0 * f->accuracy);
+    if (state->on)
+        except_linear(f, state);
 }
 
 /* The linear mesh and its matrix, and the row of each node. */

@@ -194,11 +194,11 @@ static int warn_of_jump(const OstResult *result, char text[OST_LONGEST_WARNING])
     const OstNewtonReport *newton = &result->newton;
     if (newton->jumps == 0)
         return 0;
-    snprintf(
-        text, OST_LONGEST_WARNING,
-        "on the way to load factor %.6g the body jumps to another state at rest (it buckles, or snaps through)%s: the "
-        "state beyond is stable, but which one is reached may depend on what is not in the scene",
-        newton->jump_at, newton->jumps > 1 ? ", as it has done before" : "");
+    snprintf(text, OST_LONGEST_WARNING,
+             "on the way to load factor %.6g the body jumps to another state at rest (it buckles, or snaps through)%s: "
+             "%swhich one is reached may depend on what is not in the scene",
+             newton->jump_at, newton->jumps > 1 ? ", as it has done before" : "",
+             newton->stability_unknown ? "" : "the state beyond is stable, but ");
     return 1;
 }
 
@@ -206,10 +206,17 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
 {
     if (!result->newton.stability_unknown)
         return 0;
-    snprintf(text, OST_LONGEST_WARNING,
-             "it is not known whether the state at rest is stable: without its pressures the stiffness is indefinite "
-             "there, as it is near a buckling load and beyond one, and factors that would tell take more memory than "
-             "there is; element: {mixed: off} with nu below 1/2 tells");
+    if (result->newton.stability_unknown == 2)
+        snprintf(text, OST_LONGEST_WARNING,
+                 "it is not known whether the state at rest is stable: the pressure follows a surface with a free rim, "
+                 "so that no energy tells, and the symmetric part of the stiffness is indefinite there, as it is near "
+                 "a limit load and beyond one: the body may rest elsewhere");
+    else
+        snprintf(
+            text, OST_LONGEST_WARNING,
+            "it is not known whether the state at rest is stable: without its pressures the stiffness is indefinite "
+            "there, as it is near a buckling load and beyond one, and factors that would tell take more memory than "
+            "there is; element: {mixed: off} with nu below 1/2 tells");
     return 1;
 }
 

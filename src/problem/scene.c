@@ -342,6 +342,19 @@ OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMe
     return status;
 }
 
+/* A load case that is solved linearly has the mean dilatation in place of a mixed form that others have. */
+static OstStatus leave_mixed(OstScene *scene)
+{
+    if (!ost_field_is_mixed(scene->field) || ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED))
+        return OST_SUCCESS;
+    if (ost_field_incompressible(scene->field) >= 0)
+        return refuse_incompressible(scene, ost_field_incompressible(scene->field));
+    scene->unmixed = *scene->field;
+    scene->unmixed.form = scene->field->mean.stiff_mode ? OST_SPLIT_MEAN : OST_SPLIT_NOT;
+    scene->field = &scene->unmixed;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case)
 {
     OstContext *ctx = scene->ctx;
@@ -355,6 +368,7 @@ OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_c
     made->borrows = 1;
     OstStatus status = make_plan(made, scene->from_file);
     OST_THEN(check_places(made));
+    OST_THEN(leave_mixed(made));
     if (status != OST_SUCCESS)
         ost_scene_destroy(&made);
     *of_case = made;

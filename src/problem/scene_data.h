@@ -6,6 +6,7 @@
 #include "case/case_data.h"
 #include "case/plan.h"
 #include "formats/serial/formats.h"
+#include "material/field_data.h"
 #include "orthostat/scene.h"
 #include "problem/result_data.h"
 
@@ -20,6 +21,7 @@ struct OstScene {
     OstMesh *mesh;
     OstMaterialField *field;
     int borrows;                /* mesh, materials and field are another scene's, of which this is a load case */
+    OstMaterialField unmixed;   /* that field without its mixed form, where this load case alone does not use it */
     const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 

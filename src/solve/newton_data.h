@@ -55,9 +55,13 @@ struct OstNewton {
     OstErrors errors; /* of the state that the last advance ended with */
 
     /* The solver's hierarchy: */
-    int rebuild;         /* is a new one needed? */
-    OstMethod method;    /* strategy that a new one begins with */
-    double cost;         /* iterations per digit of the first solve since it was built; 0: none yet */
+    int rebuild;      /* is a new one needed? */
+    OstMethod method; /* strategy that a new one begins with */
+    double cost;      /* iterations per digit of the first solve since it was built; 0: none yet */
+    double *beyond;   /* count: a state at rest, found by a jump that a shorter load step may yet avoid; or NULL */
+    double beyond_t;  /* its load factor */
+    double beyond_change;
+    int without_skew;    /* is the skew part of the stiffness left out, to probe the rest? */
     int indefinite;      /* was the exact stiffness found indefinite in this load step? */
     int leaving;         /* is a state that is not stable being left, by the definite stiffness? */
     int step_iterations; /* Newton iterations in this load step */

@@ -146,7 +146,7 @@ static OstStatus solve_skew(OstNewton *newton, double forcing, const double *rhs
 static OstStatus attempt(OstNewton *newton, int definite, double forcing, const double *rhs, int *again)
 {
     const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
-    const int unsymmetric = ost_newton_is_unsymmetric(newton) && !definite;
+    const int unsymmetric = ost_newton_is_unsymmetric(newton) && !definite && !newton->without_skew;
     OstStatus status;
     ost_solver_aim(newton->stiffness->solver,
                    (OstSolverAim){.relative_residual = forcing,

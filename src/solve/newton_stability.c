@@ -80,9 +80,30 @@ static OstStatus judge_mixed(OstNewton *newton, int *stable)
     return OST_SUCCESS;
 }
 
+/* A state is stable where the symmetric part of its stiffness is definite; where it is not, it may be. The definite
+ * stiffness is what the solver then has, as before. */
+static OstStatus probe_without_skew(OstNewton *newton)
+{
+    double size = 0.0;
+    int stable = 0, found = 0;
+    newton->moved = 0;
+    OST_TRY(smooth_forces(newton, newton->residual, &size));
+    newton->without_skew = 1;
+    OstStatus status = ost_newton_solve(newton, 0, 1e-3, newton->residual, &stable);
+    newton->without_skew = 0;
+    if (!stable && ost_newton_is_mixed(newton))
+        OST_THEN(judge_mixed(newton, &stable));
+    newton->report.stability_unknown = stable ? newton->report.stability_unknown : 2;
+    if (!stable)
+        OST_THEN(ost_newton_solve(newton, 1, 1e-2, newton->residual, &found));
+    return status;
+}
+
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest)
 {
     *rest = OST_REST_FOUND;
+    if (ost_newton_is_unsymmetric(newton))
+        return probe_without_skew(newton);
     if (!ost_newton_has_energy(newton))
         return OST_SUCCESS;
     for (int attempt = 0;; attempt++) {

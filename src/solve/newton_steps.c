@@ -31,6 +31,11 @@ static const double least_step = 1.0 / 4096.0;
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
 static const double jump_step = 1.0 / 16.0;
 
+/* Where the stiffness does not tell (it has a skew part, or pressures), the tangent's prediction alone does: a body
+ * that softens fast is followed by load steps of this share, one that jumps is not. A jump changes the displacement by
+ * this much at the least. */
+static const double jump_step_by_tangent = 1.0 / 64.0, least_jump = 1e-2;
+
 size_t ost_newton_state_size(const OstProblem *problem)
 {
     return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0);
@@ -125,6 +130,7 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE((*newton)->candidate);
     OST_FREE((*newton)->direction);
     OST_FREE((*newton)->from);
+    OST_FREE((*newton)->beyond);
     OST_FREE((*newton)->internal);
     OST_FREE((*newton)->load);
     OST_FREE((*newton)->residual);
@@ -218,18 +224,66 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
     return OST_SUCCESS;
 }
 
+/* Does a definite stiffness not mean a stable state, or an indefinite one an unstable state? */
+static int jumps_by_tangent(const OstNewton *newton)
+{
+    return ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton);
+}
+
 /* Is the state found farther from the predicted one than that was from the last? */
 static OstStatus find_jump(const OstNewton *newton, const OstNewtonState *state, double step, int *jumps)
 {
-    double sums[2] = {0.0};
+    double sums[3] = {0.0};
     for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++) {
         const double predicted = step * state->slope[i];
         const double missed = newton->displacement[i] - state->displacement[i] - predicted;
         sums[0] += missed * missed;
         sums[1] += predicted * predicted;
+        sums[2] += newton->displacement[i] * newton->displacement[i];
     }
-    OST_TRY(ost_sum(newton->ctx, 2, sums));
-    *jumps = newton->indefinite && sums[0] > sums[1];
+    OST_TRY(ost_sum(newton->ctx, 3, sums));
+    const int is_seen = jumps_by_tangent(newton) ? sums[0] > least_jump * least_jump * sums[2] : newton->indefinite;
+    *jumps = is_seen && sums[0] > sums[1];
+    return OST_SUCCESS;
+}
+
+/* Is a state at rest known that lies beyond a jump? */
+static int has_beyond(const OstNewton *newton, const OstNewtonState *state)
+{
+    return newton->beyond && newton->beyond_t > state->t;
+}
+
+static OstStatus keep_beyond(OstNewton *newton, const OstNewtonState *state)
+{
+    if (has_beyond(newton, state) && newton->beyond_t < newton->t)
+        return OST_SUCCESS;
+    if (!newton->beyond)
+        OST_TRY(ost_agree(newton->ctx, OST_NEW(newton->ctx, &newton->beyond, newton->count)));
+    memcpy(newton->beyond, newton->displacement, newton->count * sizeof(double));
+    newton->beyond_t = newton->t;
+    newton->beyond_change = newton->change;
+    return OST_SUCCESS;
+}
+
+/* Where no shorter load step leads on, the body has jumped there. */
+static OstStatus go_beyond(OstNewton *newton, const OstNewtonState *state)
+{
+    OST_TRY(load_to(newton, state, newton->beyond_t));
+    memcpy(newton->displacement, newton->beyond, newton->count * sizeof(double));
+    newton->change = newton->beyond_change;
+    return ost_newton_evaluate(newton, newton->displacement);
+}
+
+/* The next attempt has half the load step. What looks like a jump may come of a prediction along the last two states.
+ */
+static OstStatus cut_back(OstNewton *newton, double step, int jumps, OstNewtonState *state)
+{
+    newton->report.cut_backs++;
+    if (jumps && jumps_by_tangent(newton)) {
+        OST_TRY(keep_beyond(newton, state));
+        OST_TRY(find_slope(newton, state->t + step, state));
+    }
+    state->step = 0.5 * step;
     return OST_SUCCESS;
 }
 
@@ -246,23 +300,6 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
     }
     OST_TRY(prescribe(newton, newton->displacement));
     return ost_newton_find_rest(newton, most_iterations, rest);
-}
-
-static void accept(OstNewton *newton, double t, OstNewtonState *state)
-{
-    const double step = t - state->t;
-    const size_t count = newton->count;
-    for (size_t i = 0; i < count; i++)
-        state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
-    memcpy(state->displacement, newton->displacement, count * sizeof(double));
-    state->t = t;
-    state->step = newton->step_iterations <= FEW_ITERATIONS    ? 2.0 * step
-                  : newton->step_iterations >= MANY_ITERATIONS ? 0.5 * step
-                                                               : step;
-    newton->report.load_steps++;
-    newton->report.reached = t;
-    newton->report.relative_residual = newton->norm / newton->size;
-    newton->report.change = newton->change;
 }
 
 static int is_at_rest(const OstNewton *newton, OstRest rest)
@@ -306,10 +343,63 @@ static OstStatus come_to_rest(OstNewton *newton, OstRest *rest)
     }
 }
 
+/* A load step that was tried, and how it ended. */
+typedef struct Attempt {
+    double t; /* to which load factor */
+    OstRest rest;
+    int found, jumps;
+    int is_shortest; /* is it no longer than the one at which a jump is told? */
+} Attempt;
+
+static OstStatus attempt_step(OstNewton *newton, const OstNewtonState *state, int most_iterations, Attempt *attempt)
+{
+    const double step = attempt->t - state->t;
+    OST_TRY(try_step(newton, state, attempt->t, most_iterations, &attempt->rest));
+    attempt->found = is_at_rest(newton, attempt->rest);
+    if (attempt->found)
+        return find_jump(newton, state, step, &attempt->jumps);
+    if (!attempt->is_shortest || !has_beyond(newton, state))
+        return OST_SUCCESS;
+    OST_TRY(go_beyond(newton, state));
+    *attempt = (Attempt){.t = newton->t, .rest = OST_REST_FOUND, .found = 1, .jumps = 1, .is_shortest = 1};
+    return OST_SUCCESS;
+}
+
+static void tell(const OstNewton *newton, const OstNewtonState *state, const Attempt *attempt)
+{
+    const char *end = !attempt->found ? "given up" : attempt->jumps ? "the body jumps" : "at rest";
+    ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
+            attempt->t, end, newton->step_iterations);
+}
+
+/* Beyond a jump, the next prediction has nothing of it. */
+static OstStatus accept(OstNewton *newton, const Attempt *attempt, double to, OstNewtonState *state)
+{
+    const double step = attempt->t - state->t;
+    const size_t count = newton->count;
+    for (size_t i = 0; i < count; i++)
+        state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
+    memcpy(state->displacement, newton->displacement, count * sizeof(double));
+    state->t = attempt->t;
+    state->step = newton->step_iterations <= FEW_ITERATIONS    ? 2.0 * step
+                  : newton->step_iterations >= MANY_ITERATIONS ? 0.5 * step
+                                                               : step;
+    newton->report.load_steps++;
+    newton->report.reached = attempt->t;
+    newton->report.relative_residual = newton->norm / newton->size;
+    newton->report.change = newton->change;
+    newton->report.jumps += attempt->jumps;
+    newton->report.jump_at = attempt->jumps ? attempt->t : newton->report.jump_at;
+    newton->report.rounding_limited |= attempt->rest == OST_REST_ROUNDING;
+    ost_progress(newton->ctx, "load", state->t);
+    return attempt->jumps && jumps_by_tangent(newton) && attempt->t < to ? find_slope(newton, to, state) : OST_SUCCESS;
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
     const double span = to - state->t;
     const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
+    const double least_jump_step = jumps_by_tangent(newton) ? jump_step_by_tangent : jump_step;
     OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
@@ -317,36 +407,22 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         const double left = to - state->t;
         const double steps = fmax(ceil(left / fmin(state->step, longest) - 1e-6), 1.0);
         const double step = left / steps;
-        const double t = steps > 1.0 ? state->t + step : to;
         const int may_cut = step > least_step * span;
-        OstRest rest;
-        int jumps = 0;
-        OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
-        const int found = is_at_rest(newton, rest);
-        if (found && !ost_newton_is_mixed(newton)) /* whose stiffness is indefinite before the body is unstable */
-            OST_TRY(find_jump(newton, state, step, &jumps));
-        if (found && t == to)
-            OST_TRY(come_to_rest(newton, &rest));
-        if (found && !is_at_rest(newton, rest))
-            return ost_newton_give_up(newton, state, t, rest);
-        ost_log(newton->ctx, OST_LOG_VERBOSE, "newton: load step from %.6g to %.6g: %s after %d iterations", state->t,
-                t,
-                !found  ? "given up"
-                : jumps ? "the body jumps"
-                        : "at rest",
-                newton->step_iterations);
-        if (found && !(jumps && step > jump_step * span)) {
-            newton->report.jumps += jumps;
-            newton->report.jump_at = jumps ? t : newton->report.jump_at;
-            newton->report.rounding_limited |= rest == OST_REST_ROUNDING;
-            accept(newton, t, state);
-            ost_progress(newton->ctx, "load", state->t);
+        Attempt attempt = {.t = steps > 1.0 ? state->t + step : to, .is_shortest = step <= least_jump_step * span};
+        OST_TRY(attempt_step(newton, state, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &attempt));
+        const int accepted = attempt.found && (attempt.is_shortest || !attempt.jumps);
+        if (accepted && attempt.t == to)
+            OST_TRY(come_to_rest(newton, &attempt.rest));
+        if (accepted && !is_at_rest(newton, attempt.rest))
+            return ost_newton_give_up(newton, state, attempt.t, attempt.rest);
+        tell(newton, state, &attempt);
+        if (accepted) {
+            OST_TRY(accept(newton, &attempt, to, state));
             continue;
         }
         if (!may_cut)
-            return ost_newton_give_up(newton, state, t, rest);
-        newton->report.cut_backs++;
-        state->step = 0.5 * step;
+            return ost_newton_give_up(newton, state, attempt.t, attempt.rest);
+        OST_TRY(cut_back(newton, step, attempt.jumps, state));
     }
     return OST_SUCCESS;
 }

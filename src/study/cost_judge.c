@@ -10,6 +10,14 @@ static const double noise_of_tolerance = 10.0;
 
 enum { MOST_ANSWERS = OST_COST_MOST_REFINEMENTS + 1 };
 
+/* A sum that is below this share of its terms is 0 but for what rounding, or the solve, left of them. */
+static const double no_sum = 1e-9;
+
+static double scale_of(const OstWatched *watched)
+{
+    return watched->scale > no_sum * watched->terms ? watched->scale : watched->terms;
+}
+
 /* A quantity by elements of one order: each refinement at its tightest tolerance. */
 static OstAnswers collect(const OstCost *cost, int quantity, int order, int *refinement, double *value)
 {
@@ -23,7 +31,7 @@ static OstAnswers collect(const OstCost *cost, int quantity, int order, int *ref
         refinement[answers.count] = run->refinement;
         value[answers.count++] = run->watched[quantity].value;
         answers.noise = fmax(answers.noise, noise_of_tolerance * run->tolerance);
-        answers.scale = run->watched[quantity].scale;
+        answers.scale = scale_of(&run->watched[quantity]);
     }
     return answers;
 }

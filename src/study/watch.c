@@ -79,23 +79,26 @@ static void take_adjoint(const OstScene *scene, const OstResult *result, const O
 }
 
 /* The size of the forces, or moments, that a selection's reaction is the sum of, along what is watched, and that of all
- * the body's: below a rounding's share of it the first is none. */
-static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal count, const OstLocal *nodes, int *yes)
+ * the body's: below a rounding's share of it the first is none. *terms: the size in any direction. */
+static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal count, const OstLocal *nodes,
+                      double *terms, int *yes)
 {
     const OstLocal owned = result->mesh->owned_nodes;
-    double sums[2] = {0.0};
+    double sums[3] = {0.0};
     for (OstLocal n = 0; n < count; n++) {
         double force[3] = {0.0};
         if (nodes[n] < owned)
             add_reaction(result, watch, nodes[n], 0, force);
         sums[0] += fabs(component_of(force, watch->component));
+        sums[2] += ost_norm3(force);
     }
     for (OstLocal n = 0; n < owned; n++) {
         double force[3] = {0.0};
         add_reaction(result, watch, n, 0, force);
         sums[1] += ost_norm3(force);
     }
-    OST_TRY(ost_sum(result->ctx, 2, sums));
+    OST_TRY(ost_sum(result->ctx, 3, sums));
+    *terms = sums[2];
     *yes = sums[0] > rounding * sums[1];
     return OST_SUCCESS;
 }
@@ -113,7 +116,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes)
             add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
-    OST_THEN(acts(result, watch, count, nodes, &does_act));
+    OST_THEN(acts(result, watch, count, nodes, &watched->terms, &does_act));
     OST_FREE(shared);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));

@@ -10,6 +10,7 @@
 typedef struct OstWatched {
     double value;
     double scale;
+    double terms; /* of a reaction: the sizes of what it is the sum of; else 0 */
     double error; /* by how much the exact value is larger, as estimated; NAN: not estimated */
     int placed;   /* has the value a place: that of a least or largest one? */
     double place[3];

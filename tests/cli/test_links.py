@@ -186,6 +186,23 @@ def a_tie_passes_moments_across_a_gap():
     near(values["tip"], 2 * (4.5**3 - 2.5**3 + 2**3) / 300 + shear, 1e-2, "the tip of two bars with a gap")
 
 
+def statics_alone_gives_reactions():
+    """They are exact on any mesh where the links allow a rigid motion; others are not said to be."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "gap.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 1, 1), "a"), ("b", (2.5, 0, 0), (2, 1, 1), (2, 2, 2), "b")])
+    text = GAP.replace("ORDER", "2").replace("watch:", "watch:\n  tie: {reaction: {boundary: a_xmax}, component: z}\n"
+                                             "  f: {reaction: {boundary: a_xmin}, component: z}")
+    asked = text.replace("residual: 1e-10", "error: 0.02, of: x")  # 0 by symmetry
+    rigid = text.replace("loads:", "  - {on: {boundary: b_xmax}, rigid: {at: [4.5, 0.5, 0.5]}}\nloads:")
+    twice = rigid.replace("0.5]}}", "0.5], displacement: [free, free, -0.1]}}")
+    for case, exact, ranks in (text, "fxyz", 2), (asked, "fxyz", 1), (rigid, "fxyz", 1), (twice, "xz", 1):
+        finished, report, _ = solve(case, ranks=ranks, folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        known = {name for name, of in report["watched"].items() if of.get("error") == 0}
+        check(case is not asked or len(report["adaption"]["levels"]) == 1, f"refined for what is exact: {report['adaption']}")
+        check(known == set(exact), f"{known} are said to be exact, expected {exact}")
+
+
 def a_tie_joins_what_coincides():
     """Vertices of two parts in the same places are no cause for a warning where a tie joins them; without it they are."""
     folder = new_folder()
@@ -292,6 +309,7 @@ what_lies_elsewhere_does_not_matter()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
+statics_alone_gives_reactions()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()

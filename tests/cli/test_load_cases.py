@@ -227,6 +227,11 @@ check(finished.exit_code == 0, finished.errors)
 end = {one["load_case"]: one["watched"]["end"]["value"] for one in read_json(folder, "beam.json")["cases"]}
 sum_of = 1.5 * end["weight"] + 0.25 * end["press"] - 0.5 * end["push"] + 0.001 / 5 * end["far"]
 check(close(end["both"], sum_of, 1e-8) and abs(end["both"]) > 0.1 * abs(end["weight"]), end)
+collide = folder_with(CASE.replace("- name: far", "- name: push_a").replace("{file: beam.vtkhdf}", "{file: beam.vtu, probes: "
+                                   "{l: {points: [[4, 1, 1]]}, A_l: {points: [[2, 0.5, 0.5]]}}}"))
+refused = run("check", "beam.yaml", folder=collide)
+check(refused.exit_code == 2 and "the tables of the probe 'A_l' in the load case 'push', in line 12, and of 'l' in 'push_a' have the same "
+      "file name" in refused.errors, refused.errors)
 for entry, words in (("combine: {pres: 1}", "unknown key 'pres' in cases[6].combine; did you mean 'press'?"),
                      ("combine: {press: 1, press: 2}", "key 'press' occurs twice in cases[6].combine"),
                      ("combine: {propped: 1}", "'combine' adds loads alone, and 'propped' has supports of its own"),

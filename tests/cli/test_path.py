@@ -129,6 +129,9 @@ for text in (LINEAR, LINEAR.replace("ratio: 0.3", "ratio: 0.5") + "element: {ord
         done = run("solve", "bar.yaml", "--resume", ranks=ranks, folder=folder)
         check(done.exit_code == 0 and "3 of 4 steps are done" in done.errors, done.errors)
         check(contents(folder) == expected, f"a linear path that was resumed on {ranks} ranks left other bytes")
+        check("is not there" not in done.errors, done.errors)
+    done = run("solve", "bar.yaml", "--resume", "-o", "bar.vtu", folder=folder)
+    check(done.exit_code == 0 and "step 1 of the path is done, but its file bar_0001.vtu is not there" in done.errors, done.errors)
 
 # --- what is refused ---
 for text, ranks, words in ((CASE.replace("large_rotation: on", "large_rotation: on\nformulation: classical"), 2,

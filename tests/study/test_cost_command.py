@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -50,6 +51,18 @@ class Cost(unittest.TestCase):
         finished = run(*arguments, folder=self.folder)
         self.assertEqual(finished.returncode, 2, finished)
         self.assertIn(text, finished.stderr)
+
+    def test_a_moment_that_is_zero_is_known(self):
+        """Up to rounding, which is no error to be given in percent of rounding."""
+        with open(self.path("moved.yaml"), "w") as stream:
+            stream.write(CASE.replace("total_force: [0, 0, -1]", "distributing: {at: [5, 0, 0], displacement: [free, free, -0.1]}")
+                         + "  free: {reaction: {boundary: xmax}, about: [5, 0, 0], component: y}\n")
+        process = run("moved.yaml", *SHORT, folder=self.folder)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        found = re.search(r"free .*good to ([^ ]*) %; that is negligible beside ([^ ]*), to which", process.stdout)
+        self.assertTrue(found, process.stdout)
+        self.assertLess(float(found[1]), 1e-4)
+        self.assertGreater(float(found[2]), 1e-3)
 
     def test_large_rotations_are_priced(self):
         with open(self.path("bent.yaml"), "w") as stream:

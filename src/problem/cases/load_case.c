@@ -35,12 +35,19 @@ static uint64_t hash_supports(const OstSupports *supports)
     return supports->spring ? ost_hash(hash, 9 * nodes * sizeof *supports->spring, supports->spring) : hash;
 }
 
+/* Linear or not, mixed or not: what is solved in the same way. */
+static uint64_t hash_method(const OstEffects *effects, uint64_t hash)
+{
+    const int way[2] = {ost_effect_on(effects, OST_EFFECT_LARGE_ROTATION), ost_effect_on(effects, OST_EFFECT_MIXED)};
+    return ost_hash(hash, sizeof way, way);
+}
+
 OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash)
 {
     OstSupports *supports = NULL;
     const OstStatus status = ost_scene_supports(scene, 0, &supports);
     if (status == OST_SUCCESS)
-        *hash = hash_supports(supports);
+        *hash = hash_method(&scene->plan.effects, hash_supports(supports));
     ost_supports_destroy(&supports);
     return status;
 }

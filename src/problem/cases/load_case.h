@@ -7,7 +7,8 @@
 /* Several loadings of one body. */
 
 /* Collective. A number for what the supports of the scene's case hold: their directions and springs, not by how much
- * they move. Where it is the same on every rank, so is the stiffness. */
+ * they move; and for the method, as moved couplings are solved linearly. Where it is the same on every rank, so is the
+ * stiffness, and what is done with it. */
 OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash);
 
 /* Local. Puts what acts on another problem of the same body and supports in place of what acts on this one, whose

@@ -24,12 +24,16 @@ typedef struct Member {
     OstLinear linear;
 } Member;
 
+/* Does the loading need no solve of its own? */
+static int suits(const OstProblem *problem)
+{
+    return !problem->pressures && !problem->supports->links && !problem->follower && !ost_distributing_any(problem);
+}
+
 int ost_company_suits(const OstAnalysis *analysis)
 {
-    const OstProblem *problem = analysis->problem;
     const OstLinear *linear = analysis->work;
-    return linear->stiffness.solver && ost_solver_shares(linear->stiffness.solver) && !problem->pressures &&
-           !problem->supports->links && !problem->follower && !ost_distributing_any(problem);
+    return linear->stiffness.solver && ost_solver_shares(linear->stiffness.solver) && suits(analysis->problem);
 }
 
 OstStatus ost_company_most(OstContext *ctx, int *most)
@@ -70,6 +74,8 @@ static OstStatus join(OstAnalysis *analysis, Member *member)
     const OstLinear *linear = analysis->work;
     const size_t unknowns = 3 * (size_t)common->system->matrix->rows;
     OST_TRY(ost_scene_problem(member->companion->scene, &member->problem));
+    if (!suits(member->problem))
+        return OST_INVALID_INPUT;
     member->system = *common->system;
     member->system.supports = member->problem->supports;
     member->problem->system = &member->system;

@@ -7,6 +7,7 @@
 #include "core/parallel/reduce.h"
 #include "core/progress.h"
 #include "core/together/together.h"
+#include "material/field_data.h"
 #include "problem/cases/load_case.h"
 #include "problem/scene_data.h"
 #include "solve/cases/company.h"
@@ -120,12 +121,19 @@ const OstScene *ost_load_cases_scene(const OstLoadCases *cases, int number)
     return cases->scene[number];
 }
 
+/* Large rotations by the classical formulation have left the mixed form, which this case begins with. */
+static int has_left_mixed(const OstLoadCases *cases)
+{
+    return cases->problem && ost_field_is_mixed(cases->scene[cases->next]->field) &&
+           !ost_field_is_mixed(cases->problem->field);
+}
+
 /* The problem of the next case: that of the one before, with another loading, where the stiffness is the same. */
 static OstStatus make_problem(OstLoadCases *cases)
 {
     const OstScene *scene = cases->scene[cases->next];
     OstProblem *problem = NULL;
-    if (cases->made_for != cases->group[cases->next])
+    if (cases->made_for != cases->group[cases->next] || has_left_mixed(cases))
         release_analysis(cases);
     OST_TRY(ost_scene_problem(scene, &problem));
     if (cases->analysis) {

@@ -92,12 +92,63 @@ static void find_rigid(const Search *search)
     }
 }
 
-/* Do the supports allow what the rigid motion is beside the given one? */
+/* What a rigid face's point does by the rigid motion, and its rotation, in its carriers' unknowns; 0 where the face has
+ * the given motion. */
+static void move_carriers(const Search *search, double *of_leaders)
+{
+    const OstMesh *mesh = search->problem->mesh;
+    const OstLinks *links = search->problem->supports->links;
+    const double *direction = search->interest.direction;
+    for (int f = 0; f < links->face_count; f++)
+        for (int k = 0; k < 2; k++) {
+            const OstRigidFace *face = &links->face[f];
+            const OstGlobal n = face->carrier[k] - mesh->first_node;
+            double motion[3] = {0.0}, arm[3];
+            if (face->carrier[k] < 0 || n < 0 || n >= mesh->owned_nodes)
+                continue;
+            for (int i = 0; i < 3; i++)
+                arm[i] = face->point[i] - search->watch->about[i];
+            if (search->watch->of_moment && k == 0)
+                ost_cross3(direction, arm, motion);
+            for (int i = 0; i < 3 && search->watch->of_moment == (k == 1); i++)
+                motion[i] = direction[i] * (k == 1 ? face->length : 1.0);
+            if (ost_norm3(search->interest.moved + 3 * (size_t)n) > 0.0)
+                memset(motion, 0, sizeof motion);
+            memcpy(of_leaders + 3 * (size_t)n, motion, sizeof motion);
+        }
+}
+
+/* How far the motion is from what followers do by their leaders', at the most. */
+static OstStatus leave_leaders(const Search *search, double *distance)
+{
+    const OstMesh *mesh = search->problem->mesh;
+    const OstLinks *links = search->problem->supports->links;
+    double *of_leaders = NULL, *followed = NULL;
+    OstStatus status = OST_NEW(mesh->ctx, &of_leaders, 3 * (size_t)links->slots);
+    OST_THEN(OST_NEW(mesh->ctx, &followed, 3 * (size_t)mesh->node_count));
+    OST_TRY_DONE(ost_agree(mesh->ctx, status));
+    memcpy(of_leaders, search->rigid, 3 * (size_t)mesh->owned_nodes * sizeof *of_leaders);
+    move_carriers(search, of_leaders);
+    OST_TRY_DONE(ost_links_follow(links, of_leaders, followed));
+    for (size_t n = 0; n < (size_t)mesh->owned_nodes; n++) {
+        double left[3];
+        if (links->of_node[n] < 0)
+            continue;
+        for (size_t i = 0; i < 3; i++)
+            left[i] = search->rigid[3 * n + i] - followed[3 * n + i];
+        *distance = fmax(*distance, ost_norm3(left));
+    }
+done:
+    OST_FREE(of_leaders, followed);
+    return status;
+}
+
+/* Do supports and links allow what the rigid motion is beside the given one? Weights of links are found to rounding. */
 static OstStatus is_static(const Search *search, int *yes)
 {
-    static const double nothing = 1e-12;
+    static const double nothing = 1e-12, rounding = 1e-9;
     const OstProblem *problem = search->problem;
-    double sizes[2] = {0.0}; /* of what they forbid, and of all */
+    double sizes[3] = {0.0}; /* of what supports forbid, of all, and of what links forbid */
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         const double *motion = search->rigid + 3 * (size_t)node;
         double projector[9], allowed[3];
@@ -107,13 +158,15 @@ static OstStatus is_static(const Search *search, int *yes)
             sizes[0] = fmax(sizes[0], fabs(motion[i] - allowed[i]));
         sizes[1] = fmax(sizes[1], ost_norm3(motion));
     }
-    OST_TRY(ost_max(problem->ctx, 2, sizes));
-    *yes = !problem->supports->spring && sizes[0] <= nothing * sizes[1];
+    if (problem->supports->links)
+        OST_TRY(leave_leaders(search, &sizes[2]));
+    OST_TRY(ost_max(problem->ctx, 3, sizes));
+    *yes = !problem->supports->spring && sizes[0] <= nothing * sizes[1] && sizes[2] <= rounding * sizes[1];
     return OST_SUCCESS;
 }
 
-/* The work of the imbalance on the given motion where no support takes it: the field has no reaction there. Nodes that
- * follow others are solved for to the residual. */
+/* The work of the imbalance on the given motion where no support takes it: the field has no reaction there. With nodes
+ * that follow others it has all that is out of balance. */
 static double work_beside_supports(const Search *search)
 {
     const OstProblem *problem = search->problem;
@@ -145,7 +198,7 @@ static OstStatus find_by_statics(const Search *whole, double t, const double *u,
     double before[3] = {0.0}, exact[3] = {0.0};
     const int depends_on_u =
         !ost_problem_is_linear(whole->problem) && (whole->watch->of_moment || whole->problem->follower);
-    int yes = !whole->problem->supports->links && !depends_on_u;
+    int yes = !depends_on_u;
     for (int axis = 0; axis < 3 && yes; axis++) {
         OstWatch part = *whole->watch;
         Search search = {whole->problem, &part, {0}, whole->rigid, whole->imbalance};
