@@ -16,8 +16,13 @@ static const double loosest = 1e-2, tightest = 1e-8, forcing_share = 0.9, guard_
  * times as long as thick takes 19 iterations, and 108 with the other. */
 static const double loosest_mixed = 1e-4;
 
+/* That of a body that whole steps stretch: what is left of that would be the next stiffness's stress. */
+static const double loosest_stretched = 1e-3;
+
 static double loosest_forcing(const OstNewton *newton)
 {
+    if (newton->stretches)
+        return loosest_stretched;
     return ost_newton_is_mixed(newton) ? loosest_mixed : loosest;
 }
 
@@ -40,9 +45,9 @@ static const double drowned_residual = 1e-14;
 /* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
 static const double rounding_change = 1e-9;
 
-/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
- * are many, and do not count as those of a slow search. */
-enum { MOST_DESCENTS = 100, RETRIED = 3 };
+/* Iterations with the definite stiffness do not count as those of a slow search; every few of them the exact one is
+ * tried again. */
+enum { RETRIED = 3 };
 
 /* Sums over the rows and nodes of this rank. */
 enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
@@ -150,9 +155,10 @@ static void tell(const OstNewton *newton, int definite, double length)
 {
     ost_log(
         newton->ctx, OST_LOG_VERBOSE,
-        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g, change %.1e",
+        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g%s, change %.1e",
         newton->t, newton->step_iterations, newton->norm / newton->size, newton->energy, newton->solve.iterations,
-        newton->forcing, definite ? " with the definite stiffness" : "", length, newton->change);
+        newton->forcing, definite ? " with the definite stiffness" : "", length,
+        newton->trial.steps > 0 ? " on trial" : "", newton->change);
 }
 
 /* One iteration: a correction by the exact stiffness or, where that is indefinite, by the definite one; a step along
@@ -200,14 +206,14 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
     for (int k = 0; k < OST_RECENT; k++)
         newton->recent[k] = newton->energy;
     newton->decrement = INFINITY;
-    newton->stopped = 0;
+    newton->stopped = newton->trial.steps = 0;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         const int is_rounding = newton->norm <= drowned_residual * newton->size;
         const int is_settled = newton->change <= settled || (is_rounding && k > 0); /* else `change` says nothing */
         newton->stopped = newton->norm > target && is_enough(newton);
         *rest = (newton->norm <= target || newton->stopped) && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
-        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
+        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == newton->most_descents)
             return OST_SUCCESS;
         if (k > 0)
             forcing = next_forcing(newton, forcing, before);

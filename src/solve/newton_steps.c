@@ -31,6 +31,11 @@ static const double least_step = 1.0 / 4096.0;
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
 static const double jump_step = 1.0 / 16.0;
 
+/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
+ * are many. A load step that is longer than that share is cut back after a few of them: most likely the body bends far
+ * there, which shorter steps follow. */
+enum { MOST_DESCENTS = 100, FEW_DESCENTS = 3 };
+
 size_t ost_newton_state_size(const OstProblem *problem)
 {
     return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0);
@@ -97,6 +102,8 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->candidate, count));
         OST_THEN(OST_NEW(ctx, &made->direction, count));
         OST_THEN(OST_NEW(ctx, &made->from, count));
+        OST_THEN(OST_NEW(ctx, &made->trial.displacement, count));
+        OST_THEN(OST_NEW(ctx, &made->trial.correction, rows));
         OST_THEN(OST_NEW(ctx, &made->internal, owned));
         OST_THEN(OST_NEW(ctx, &made->load, owned));
         OST_THEN(OST_NEW(ctx, &made->residual, rows));
@@ -125,6 +132,8 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE((*newton)->candidate);
     OST_FREE((*newton)->direction);
     OST_FREE((*newton)->from);
+    OST_FREE((*newton)->trial.displacement);
+    OST_FREE((*newton)->trial.correction);
     OST_FREE((*newton)->internal);
     OST_FREE((*newton)->load);
     OST_FREE((*newton)->residual);
@@ -321,8 +330,11 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         const int may_cut = step > least_step * span;
         OstRest rest;
         int jumps = 0;
+        const int minimises = ost_newton_has_energy(newton) && !ost_newton_is_mixed(newton);
+        newton->most_descents = minimises && step > jump_step * span ? FEW_DESCENTS : MOST_DESCENTS;
         OST_TRY(try_step(newton, state, t, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &rest));
         const int found = is_at_rest(newton, rest);
+        newton->most_descents = MOST_DESCENTS;
         if (found && !ost_newton_is_mixed(newton)) /* whose stiffness is indefinite before the body is unstable */
             OST_TRY(find_jump(newton, state, step, &jumps));
         if (found && t == to)
