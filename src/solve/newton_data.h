@@ -42,7 +42,6 @@ struct OstNewton {
     double *from;                     /* count: the displacement before its last change */
     double recent[OST_RECENT];        /* the energies at the last displacements, the oldest overwritten first */
     OstNewtonTrial trial;
-    int stretches;                 /* has a whole step been taken on trial? */
     int moved;                     /* is there such a change, since the last state at rest? */
     double *residual, *correction; /* 3 × rows, and the pressures */
     double *of_tets;               /* 4 × tet_count: a mixed form's pressures now, which the problem has; else NULL */

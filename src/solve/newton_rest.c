@@ -16,14 +16,16 @@ static const double loosest = 1e-2, tightest = 1e-8, forcing_share = 0.9, guard_
  * times as long as thick takes 19 iterations, and 108 with the other. */
 static const double loosest_mixed = 1e-4;
 
-/* That of a body that whole steps stretch: what is left of that would be the next stiffness's stress. */
-static const double loosest_stretched = 1e-3;
+/* Where a step has stretched the body, so that the residual has risen or is far beyond the loads, what a solve leaves
+ * of that may be as large as what bends it: it goes further by as much, and at most by this. */
+static const double most_risen = 10.0;
 
-static double loosest_forcing(const OstNewton *newton)
+static double loosest_forcing(const OstNewton *newton, double before)
 {
-    if (newton->stretches)
-        return loosest_stretched;
-    return ost_newton_is_mixed(newton) ? loosest_mixed : loosest;
+    if (ost_newton_is_mixed(newton))
+        return loosest_mixed;
+    const double risen = fmax(0.1 * newton->norm / newton->size, before > 0.0 ? newton->norm / before : 0.0);
+    return loosest / fmin(fmax(risen, 1.0), most_risen);
 }
 
 /* Back to the exact stiffness once the residual has fallen by this since it was found indefinite, and every few
@@ -120,7 +122,7 @@ static double next_forcing(const OstNewton *newton, double before, double norm_b
     if (forcing_share * before * before > guard_above)
         forcing = fmax(forcing, forcing_share * before * before);
     forcing = fmax(forcing, 0.1 * target / newton->norm); /* no further than the state at rest needs */
-    return fmin(fmax(forcing, tightest), loosest_forcing(newton));
+    return fmin(fmax(forcing, tightest), loosest_forcing(newton, norm_before));
 }
 
 /* The size of the last correction relative to the displacement. */
@@ -200,8 +202,9 @@ static int is_enough(const OstNewton *newton)
 OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest)
 {
     int definite = 0, descents = 0;
-    double forcing = loosest_forcing(newton), fallen_from = 0.0, before = 0.0;
+    double forcing = 0.0, fallen_from = 0.0, before = 0.0;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    forcing = loosest_forcing(newton, 0.0);
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
     for (int k = 0; k < OST_RECENT; k++)
         newton->recent[k] = newton->energy;

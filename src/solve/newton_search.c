@@ -163,7 +163,6 @@ static void try_whole(OstNewton *newton, const Point *start, double *length)
         memcpy(trial->correction, newton->correction,
                3 * (size_t)newton->problem->system->matrix->rows * sizeof(double));
     }
-    newton->stretches = 1;
     memcpy(newton->from, newton->displacement, newton->count * sizeof(double));
     memcpy(newton->displacement, newton->candidate, newton->count * sizeof(double));
     newton->moved = 1;
