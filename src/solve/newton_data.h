@@ -17,6 +17,15 @@ typedef enum {
 /* The energy may rise above that of the last iteration, but not above all of so many. */
 enum { OST_RECENT = 5 };
 
+/* Whole steps that are taken though they are not low enough (newton_search.c). */
+typedef struct OstNewtonTrial {
+    int steps;            /* 0: none */
+    double *displacement; /* count: where they began */
+    double *correction;   /* 3 × rows: the first of them */
+    double value, slope;  /* of the energy there, along it */
+    double goal;          /* the energy below which they are kept */
+} OstNewtonTrial;
+
 struct OstNewton {
     OstContext *ctx;
     OstProblem *problem;
@@ -32,17 +41,18 @@ struct OstNewton {
     double *direction;                /* count: the correction of the displacement */
     double *from;                     /* count: the displacement before its last change */
     double recent[OST_RECENT];        /* the energies at the last displacements, the oldest overwritten first */
-    int moved;                        /* is there such a change, since the last state at rest? */
-    double *residual, *correction;    /* 3 × rows, and the pressures */
-    double *of_tets;         /* 4 × tet_count: a mixed form's pressures now, which the problem has; else NULL */
-    double *internal, *load; /* 3 × owned_nodes */
-    double energy;           /* total: of the strain, less that of the load */
-    double energy_size;      /* the sum of their sizes, for rounding */
-    double strain_energy;    /* 0 where there is no energy to minimise */
-    double norm;             /* of the residual */
-    double driving;          /* the largest residual with which a load step began, before its prediction */
-    double rounding;         /* about what rounding of the displacement leaves of the residual */
-    double size;             /* of load and reactions, or `driving`: what the residual is relative to */
+    OstNewtonTrial trial;
+    int moved;                     /* is there such a change, since the last state at rest? */
+    double *residual, *correction; /* 3 × rows, and the pressures */
+    double *of_tets;               /* 4 × tet_count: a mixed form's pressures now, which the problem has; else NULL */
+    double *internal, *load;       /* 3 × owned_nodes */
+    double energy;                 /* total: of the strain, less that of the load */
+    double energy_size;            /* the sum of their sizes, for rounding */
+    double strain_energy;          /* 0 where there is no energy to minimise */
+    double norm;                   /* of the residual */
+    double driving;                /* the largest residual with which a load step began, before its prediction */
+    double rounding;               /* about what rounding of the displacement leaves of the residual */
+    double size;                   /* of load and reactions, or `driving`: what the residual is relative to */
 
     /* The last correction: */
     double change;    /* its 2-norm over that of the displacement */
@@ -63,6 +73,7 @@ struct OstNewton {
     double beyond_change;
     int without_skew;    /* is the skew part of the stiffness left out, to probe the rest? */
     int indefinite;      /* was the exact stiffness found indefinite in this load step? */
+    int most_descents;   /* iterations with the definite stiffness that a search for rest may take */
     int leaving;         /* is a state that is not stable being left, by the definite stiffness? */
     int step_iterations; /* Newton iterations in this load step */
 };

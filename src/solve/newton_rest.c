@@ -16,9 +16,16 @@ static const double loosest = 1e-2, tightest = 1e-8, forcing_share = 0.9, guard_
  * times as long as thick takes 19 iterations, and 108 with the other. */
 static const double loosest_mixed = 1e-4;
 
-static double loosest_forcing(const OstNewton *newton)
+/* Where a step has stretched the body, so that the residual has risen or is far beyond the loads, what a solve leaves
+ * of that may be as large as what bends it: it goes further by as much, and at most by this. */
+static const double most_risen = 10.0;
+
+static double loosest_forcing(const OstNewton *newton, double before)
 {
-    return ost_newton_is_mixed(newton) ? loosest_mixed : loosest;
+    if (ost_newton_is_mixed(newton))
+        return loosest_mixed;
+    const double risen = fmax(0.1 * newton->norm / newton->size, before > 0.0 ? newton->norm / before : 0.0);
+    return loosest / fmin(fmax(risen, 1.0), most_risen);
 }
 
 /* Back to the exact stiffness once the residual has fallen by this since it was found indefinite, and every few
@@ -40,9 +47,9 @@ static const double drowned_residual = 1e-14;
 /* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
 static const double rounding_change = 1e-9;
 
-/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
- * are many, and do not count as those of a slow search. */
-enum { MOST_DESCENTS = 100, RETRIED = 3 };
+/* Iterations with the definite stiffness do not count as those of a slow search; every few of them the exact one is
+ * tried again. */
+enum { RETRIED = 3 };
 
 /* Sums over the rows and nodes of this rank. */
 enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
@@ -115,7 +122,7 @@ static double next_forcing(const OstNewton *newton, double before, double norm_b
     if (forcing_share * before * before > guard_above)
         forcing = fmax(forcing, forcing_share * before * before);
     forcing = fmax(forcing, 0.1 * target / newton->norm); /* no further than the state at rest needs */
-    return fmin(fmax(forcing, tightest), loosest_forcing(newton));
+    return fmin(fmax(forcing, tightest), loosest_forcing(newton, norm_before));
 }
 
 /* The size of the last correction relative to the displacement. */
@@ -150,9 +157,10 @@ static void tell(const OstNewton *newton, int definite, double length)
 {
     ost_log(
         newton->ctx, OST_LOG_VERBOSE,
-        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g, change %.1e",
+        "newton: t %.6g, iteration %d: residual %.2e, energy %.10g, %d iterations to %.0e%s, step %.3g%s, change %.1e",
         newton->t, newton->step_iterations, newton->norm / newton->size, newton->energy, newton->solve.iterations,
-        newton->forcing, definite ? " with the definite stiffness" : "", length, newton->change);
+        newton->forcing, definite ? " with the definite stiffness" : "", length,
+        newton->trial.steps > 0 ? " on trial" : "", newton->change);
 }
 
 /* One iteration: a correction by the exact stiffness or, where that is indefinite, by the definite one; a step along
@@ -194,20 +202,21 @@ static int is_enough(const OstNewton *newton)
 OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *rest)
 {
     int definite = 0, descents = 0;
-    double forcing = loosest_forcing(newton), fallen_from = 0.0, before = 0.0;
+    double forcing = 0.0, fallen_from = 0.0, before = 0.0;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    forcing = loosest_forcing(newton, 0.0);
     newton->change = newton->norm > 0.0 ? 1.0 : 0.0;
     for (int k = 0; k < OST_RECENT; k++)
         newton->recent[k] = newton->energy;
     newton->decrement = INFINITY;
-    newton->stopped = 0;
+    newton->stopped = newton->trial.steps = 0;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         const int is_rounding = newton->norm <= drowned_residual * newton->size;
         const int is_settled = newton->change <= settled || (is_rounding && k > 0); /* else `change` says nothing */
         newton->stopped = newton->norm > target && is_enough(newton);
         *rest = (newton->norm <= target || newton->stopped) && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
-        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == MOST_DESCENTS)
+        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == newton->most_descents)
             return OST_SUCCESS;
         if (k > 0)
             forcing = next_forcing(newton, forcing, before);

@@ -25,6 +25,12 @@ static const double steep = 0.5;
 
 enum { MOST_CUTS = 20, MOST_EXTENSIONS = 10 };
 
+/* A whole correction that turns a slender body stretches it, and the next ones take that back. So it is taken even if
+ * the energy rises, and judged by where the corrections after it lead; after so many steps in all the search goes back
+ * to a shorter one (R. M. Chamberlain and others, The watchdog technique for forcing convergence in algorithms for
+ * constrained optimization, Math. Program. Study 16, 1982). */
+enum { MOST_TRIALS = 3 };
+
 /* What the search goes by, at one step length: the energy and its slope, or, without an energy, the slope alone: the
  * residual along the direction. */
 typedef struct Point {
@@ -128,25 +134,96 @@ static OstStatus take_whole(OstNewton *newton, const Point *start, double *lengt
     return OST_SUCCESS;
 }
 
-OstStatus ost_newton_search(OstNewton *newton, double *length)
+/* Shorter and shorter steps along the correction, from `next` on. */
+static OstStatus cut_back(OstNewton *newton, const Point *start, double next, double *length)
 {
-    Point start, point;
-    double next = 1.0;
-    OST_TRY(measure(newton, 0.0, &start));
-    *length = 0.0;
-    if (ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton))
-        return take_whole(newton, &start, length);
-    for (int cut = 0; cut <= MOST_CUTS && start.slope < 0.0; cut++) {
+    Point point;
+    for (int cut = 0; cut < MOST_CUTS; cut++) {
+        newton->report.cuts++;
         OST_TRY(go_to(newton, next, &point));
-        if (is_low_enough(newton, &start, &point)) {
-            if (cut == 0 && ost_newton_has_energy(newton))
-                OST_TRY(extend(newton, &start, &point));
+        if (is_low_enough(newton, start, &point)) {
             move(newton);
             *length = point.length;
             return OST_SUCCESS;
         }
-        newton->report.cuts++;
-        next = shorten(&start, &point);
+        next = shorten(start, &point);
     }
     return ost_newton_evaluate(newton, newton->displacement);
+}
+
+/* Takes a whole step that is not low enough, on trial. The energies of such states are no measure for later ones. */
+static void try_whole(OstNewton *newton, const Point *start, double *length)
+{
+    OstNewtonTrial *trial = &newton->trial;
+    if (trial->steps++ == 0) {
+        trial->value = start->value;
+        trial->slope = start->slope;
+        trial->goal = reference(newton, start) + share * start->slope;
+        memcpy(trial->displacement, newton->displacement, newton->count * sizeof(double));
+        memcpy(trial->correction, newton->correction,
+               3 * (size_t)newton->problem->system->matrix->rows * sizeof(double));
+    }
+    memcpy(newton->from, newton->displacement, newton->count * sizeof(double));
+    memcpy(newton->displacement, newton->candidate, newton->count * sizeof(double));
+    newton->moved = 1;
+    *length = 1.0;
+}
+
+/* Back to where the trial began, and a shorter step from there. */
+static OstStatus give_up_trial(OstNewton *newton, double *length)
+{
+    OstNewtonTrial *trial = &newton->trial;
+    const Point start = {0.0, trial->value, trial->slope};
+    Point point;
+    trial->steps = 0;
+    memcpy(newton->displacement, trial->displacement, newton->count * sizeof(double));
+    memcpy(newton->correction, trial->correction, 3 * (size_t)newton->problem->system->matrix->rows * sizeof(double));
+    OST_TRY(ost_newton_spread(newton, newton->correction, newton->direction));
+    OST_TRY(go_to(newton, 1.0, &point));
+    return cut_back(newton, &start, shorten(&start, &point), length);
+}
+
+/* A whole step within a trial. */
+static OstStatus go_on_trying(OstNewton *newton, const Point *start, double *length)
+{
+    Point point;
+    if (!(start->slope < 0.0))
+        return give_up_trial(newton, length);
+    OST_TRY(go_to(newton, 1.0, &point));
+    if (point.value <= newton->trial.goal) {
+        newton->trial.steps = 0;
+        move(newton);
+        *length = 1.0;
+        return OST_SUCCESS;
+    }
+    if (newton->trial.steps == MOST_TRIALS || !isfinite(point.value))
+        return give_up_trial(newton, length);
+    try_whole(newton, start, length);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_newton_search(OstNewton *newton, double *length)
+{
+    Point start, point;
+    OST_TRY(measure(newton, 0.0, &start));
+    *length = 0.0;
+    if (ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton))
+        return take_whole(newton, &start, length);
+    if (newton->trial.steps > 0)
+        return go_on_trying(newton, &start, length);
+    if (!(start.slope < 0.0))
+        return ost_newton_evaluate(newton, newton->displacement);
+    OST_TRY(go_to(newton, 1.0, &point));
+    if (is_low_enough(newton, &start, &point)) {
+        if (ost_newton_has_energy(newton))
+            OST_TRY(extend(newton, &start, &point));
+        move(newton);
+        *length = point.length;
+        return OST_SUCCESS;
+    }
+    if (ost_newton_has_energy(newton) && !newton->leaving && isfinite(point.value)) {
+        try_whole(newton, &start, length);
+        return OST_SUCCESS;
+    }
+    return cut_back(newton, &start, shorten(&start, &point), length);
 }

@@ -25,7 +25,7 @@ static int can_go_on(OstStatus status)
 }
 
 /* The classical form's own stiffness leaves out how R changes; that of the consistent one has it, and is near. Once the
- * stiffness was found indefinite, its exact stress says which way the body buckles. */
+ * stiffness was found indefinite, the exact stress in the definite one says which way the body buckles. */
 static OstStatus fill(OstNewton *newton, int definite)
 {
     OstProblem *problem = newton->problem;
@@ -35,7 +35,8 @@ static OstStatus fill(OstNewton *newton, int definite)
     ost_problem_take_formulation(problem, OST_FORMULATION_CONSISTENT);
     const OstStatus status = ost_problem_stiffness_from(
         problem, newton->t, newton->displacement,
-        newton->moved && !newton->indefinite && ost_newton_has_energy(newton) ? newton->from : NULL, definite);
+        newton->moved && !(newton->indefinite && definite) && ost_newton_has_energy(newton) ? newton->from : NULL,
+        definite);
     ost_problem_take_formulation(problem, formulation);
     return status;
 }

@@ -36,6 +36,11 @@ static const double jump_step = 1.0 / 16.0;
  * this much at the least. */
 static const double jump_step_by_tangent = 1.0 / 64.0, least_jump = 1e-2;
 
+/* Iterations with the definite stiffness go down the energy from one state at rest, no longer stable, to another. They
+ * are many. A load step that is longer than that share is cut back after a few of them: most likely the body bends far
+ * there, which shorter steps follow. */
+enum { MOST_DESCENTS = 100, FEW_DESCENTS = 3 };
+
 size_t ost_newton_state_size(const OstProblem *problem)
 {
     return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0);
@@ -102,6 +107,8 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
         OST_THEN(OST_NEW(ctx, &made->candidate, count));
         OST_THEN(OST_NEW(ctx, &made->direction, count));
         OST_THEN(OST_NEW(ctx, &made->from, count));
+        OST_THEN(OST_NEW(ctx, &made->trial.displacement, count));
+        OST_THEN(OST_NEW(ctx, &made->trial.correction, rows));
         OST_THEN(OST_NEW(ctx, &made->internal, owned));
         OST_THEN(OST_NEW(ctx, &made->load, owned));
         OST_THEN(OST_NEW(ctx, &made->residual, rows));
@@ -131,6 +138,8 @@ void ost_newton_destroy(OstNewton **newton)
     OST_FREE((*newton)->direction);
     OST_FREE((*newton)->from);
     OST_FREE((*newton)->beyond);
+    OST_FREE((*newton)->trial.displacement);
+    OST_FREE((*newton)->trial.correction);
     OST_FREE((*newton)->internal);
     OST_FREE((*newton)->load);
     OST_FREE((*newton)->residual);
@@ -400,6 +409,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
     const double span = to - state->t;
     const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
     const double least_jump_step = jumps_by_tangent(newton) ? jump_step_by_tangent : jump_step;
+    const int minimises = ost_newton_has_energy(newton) && !ost_newton_is_mixed(newton);
     OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
@@ -409,7 +419,9 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         const double step = left / steps;
         const int may_cut = step > least_step * span;
         Attempt attempt = {.t = steps > 1.0 ? state->t + step : to, .is_shortest = step <= least_jump_step * span};
+        newton->most_descents = minimises && step > jump_step * span ? FEW_DESCENTS : MOST_DESCENTS;
         OST_TRY(attempt_step(newton, state, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &attempt));
+        newton->most_descents = MOST_DESCENTS;
         const int accepted = attempt.found && (attempt.is_shortest || !attempt.jumps);
         if (accepted && attempt.t == to)
             OST_TRY(come_to_rest(newton, &attempt.rest));
