@@ -141,6 +141,11 @@ done = run("mesh", write(folder, "short.bdf", DECK.replace("ENDDATA\n", "")), fo
 check(done.exit_code == 0 and "no ENDDATA: is the file complete?" in done.errors, done.errors)
 check(not run("mesh", "deck.bdf", folder=folder).errors, "a whole deck is warned of")
 
+# Abaqus: a coordinate that is left out is 0.
+blanks = write(folder, "blanks.inp", "*NODE\n1\n2, 1., ,\n3,,1.\n4, , ,1.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n")
+held = json.loads(run("mesh", blanks, "--json", "-", folder=folder).output)
+check([*held["low"], *held["high"], round(6 * held["volume"], 12)] == [0, 0, 0, 1, 1, 1, 1], f"{held}")
+
 # VTK's attributes beside the data, as its writer has them, in text and in bytes; names with blanks.
 def vtk(numbers):
     """A grid of two tets; `numbers`: its arrays of big-endian types, as the file has them."""

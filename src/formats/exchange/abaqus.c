@@ -207,8 +207,9 @@ static OstStatus read_node(OstInp *inp)
     OstGlobal label = 0;
     double x[3] = {0.0};
     OST_TRY(ost_lines_integer(inp->lines, "the number of a node", &label));
-    for (int d = 0; d < 3 && !ost_lines_ended(inp->lines); d++)
-        OST_TRY(ost_lines_number(inp->lines, "a coordinate", &x[d]));
+    for (int d = 0; d < 3; d++)
+        if (ost_lines_field(inp->lines)) /* else it is 0 */
+            OST_TRY(ost_lines_number(inp->lines, "a coordinate", &x[d]));
     inp->own_nodes |= inp->instance_count > 0 && !inp->inside;
     label = ost_inp_number(inp, OST_SET_OF_NODES, "", label);
     OST_TRY(ost_cells_add_node(&inp->cells, label, x));

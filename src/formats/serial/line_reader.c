@@ -98,6 +98,14 @@ int ost_lines_ended(OstLineReader *reader)
     return next == '\0' || next == '#';
 }
 
+int ost_lines_field(OstLineReader *reader)
+{
+    reader->next += strspn(reader->next, " \t");
+    reader->next += *reader->next == ',';
+    reader->next += strspn(reader->next, " \t");
+    return !strchr(",#", *reader->next); /* nor the end */
+}
+
 OstStatus ost_lines_next(OstLineReader *reader, int *found)
 {
     do {

@@ -29,6 +29,9 @@ OstStatus ost_lines_next(OstLineReader *reader, int *found);
 /* Local. Has the line ended (but for a comment)? */
 int ost_lines_ended(OstLineReader *reader);
 
+/* Local. Goes past the comma before the next field, if there is one. Is there something in the field? */
+int ost_lines_field(OstLineReader *reader);
+
 /* Local. Skips the character if it is the next one; returns whether it was. */
 int ost_lines_take(OstLineReader *reader, char character);
 
