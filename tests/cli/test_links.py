@@ -199,7 +199,7 @@ def statics_alone_gives_reactions():
         finished, report, _ = solve(case, ranks=ranks, folder=folder)
         check(finished.exit_code == 0, finished.errors)
         known = {name for name, of in report["watched"].items() if of.get("error") == 0}
-        check(case is not asked or len(report["adaption"]["levels"]) == 1, f"refined for what is exact: {report['adaption']}")
+        check(case is not asked or len(report["adaption"]["levels"]) == 1, f"refined for what is exact: {report}")
         check(known == set(exact), f"{known} are said to be exact, expected {exact}")
 
 
