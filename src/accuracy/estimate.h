@@ -16,6 +16,7 @@ typedef struct OstInterest {
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
     double doubt; /* of a reaction: so much of it others may bear that hold the same nodes */
+    double size;  /* of a reaction: the sum of the lengths of the nodes' forces, or moments */
 } OstInterest;
 
 /* Collective. Makes that of a watched displacement or reaction, or of the mean over a region of a measure that is

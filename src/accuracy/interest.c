@@ -91,9 +91,10 @@ static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, 
     return status;
 }
 
-/* Their reaction, or its moment; and what of it others may bear in their place, or they in that of others. */
+/* Their reaction, or its moment; what of it others may bear in their place, or they in that of others; and the sum of
+ * the lengths of its terms. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
-                               const Borne *borne, double *forces, double sum[6])
+                               const Borne *borne, double *forces, double sum[7])
 {
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     const OstLocal *nodes = borne->nodes;
@@ -103,7 +104,7 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
     OST_THEN(ost_problem_force(problem, t, u, force));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, u, load);
-    memset(sum, 0, 6 * sizeof *sum);
+    memset(sum, 0, 7 * sizeof *sum);
     for (OstLocal n = 0; n < borne->count && status == OST_SUCCESS; n++) {
         double of_node[3], in_doubt[3], arm[3], moment[3], moment_in_doubt[3];
         if (nodes[n] >= problem->mesh->owned_nodes)
@@ -124,18 +125,19 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
             sum[i] += watch->of_moment ? moment[i] : of_node[i];
             sum[3 + i] += watch->of_moment ? moment_in_doubt[i] : in_doubt[i];
         }
+        sum[6] += ost_norm3(watch->of_moment ? moment : of_node);
     }
     OST_FREE(force);
     OST_FREE(load);
     OST_TRY(ost_agree(problem->ctx, status));
-    return ost_sum(problem->ctx, 6, sum);
+    return ost_sum(problem->ctx, 7, sum);
 }
 
 static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                              OstInterest *interest)
 {
     Borne borne = {0};
-    double sum[6], direction[3];
+    double sum[7], direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
     if (watch->of_moment && !ost_problem_is_linear(problem))
         OST_TRY(
@@ -147,6 +149,7 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     memcpy(interest->direction, direction, sizeof direction);
     interest->value = ost_dot3(direction, sum);
     interest->doubt = fabs(ost_dot3(direction, sum + 3));
+    interest->size = sum[6];
     for (OstLocal n = 0; n < borne.count && status == OST_SUCCESS; n++) {
         double arm[3], *moved = interest->moved + 3 * (size_t)nodes[n];
         find_arm(problem, watch, u, nodes[n], arm);

@@ -102,16 +102,17 @@ static double power_of(const OstAdaption *adaption)
     return is_of_watch(adaption) ? 2.0 : 1.0;
 }
 
-/* A displacement below this share of the largest one, as one that is zero by symmetry, is compared with that share. */
-static const double small_displacement = 1e-2;
+/* A displacement below this share of the largest one, and a reaction below this share of all its nodes' forces, as
+ * those that are zero by symmetry, are compared with that share. */
+static const double small_share = 1e-2;
 
 /* Relative to what the exact value seems to be. */
 static double relative_error(const OstResult *result)
 {
     const OstInterestError *interest = &result->interest;
     const int of_displacement = interest->watch && interest->watch->kind == OST_WATCH_DISPLACEMENT;
-    const double least = of_displacement ? small_displacement * result->largest_displacement : 0.0;
-    const double exact = fmax(fabs(interest->value + interest->error), least);
+    const double size = of_displacement ? result->largest_displacement : interest->size;
+    const double exact = fmax(fabs(interest->value + interest->error), small_share * size);
     return interest->sum > 0.0 ? interest->sum / fmax(exact, interest->sum) : 0.0;
 }
 

@@ -139,8 +139,8 @@ void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects);
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 
-/* Local. Is it a mean over a region, of a measure that is linear in the stress? Its error takes an adjoint problem where
- * Young's moduli differ by this factor. */
+/* Local. Is it a mean over a region, of a measure that is linear in the stress? Its error takes an adjoint problem
+ * where Young's moduli differ by this factor. */
 int ost_watch_is_linear_mean(const OstWatch *watch);
 #define OST_UNEVEN_MODULI 30.0
 

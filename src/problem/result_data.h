@@ -36,6 +36,7 @@ typedef struct OstInterestError {
     const OstWatch *watch; /* the case's; NULL: none is asked about, or its error is not known */
     double value, error;   /* the exact value less this one, as estimated */
     double doubt;          /* of it, of either sign */
+    double size;           /* of a reaction: the sum of the lengths of its terms */
     double *share;         /* owned_tets: each one's share of it, where a mesh should be refined for it */
     double sum;            /* of the shares: |error|, or more where parts of it cancel */
 } OstInterestError;

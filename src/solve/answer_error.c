@@ -119,6 +119,7 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
                                            &found->error, found->share);
         found->value = interest.value;
         found->doubt = interest.doubt;
+        found->size = interest.size;
         ost_interest_clear(&interest);
         OST_TRY(status);
     }
