@@ -180,7 +180,7 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
 /* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
-    const double bytes = 216.0 * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
+    const double bytes = 264.0 * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
