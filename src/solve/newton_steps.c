@@ -409,7 +409,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
     const double span = to - state->t;
     const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
     const double least_jump_step = jumps_by_tangent(newton) ? jump_step_by_tangent : jump_step;
-    const int minimises = ost_newton_has_energy(newton) && !ost_newton_is_mixed(newton);
+    int follows = ost_newton_has_energy(newton) && !ost_newton_is_mixed(newton); /* by short steps, if need be */
     OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
@@ -419,7 +419,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         const double step = left / steps;
         const int may_cut = step > least_step * span;
         Attempt attempt = {.t = steps > 1.0 ? state->t + step : to, .is_shortest = step <= least_jump_step * span};
-        newton->most_descents = minimises && step > jump_step * span ? FEW_DESCENTS : MOST_DESCENTS;
+        newton->most_descents = follows && step > jump_step * span ? FEW_DESCENTS : MOST_DESCENTS;
         OST_TRY(attempt_step(newton, state, may_cut ? MOST_ITERATIONS : LAST_ITERATIONS, &attempt));
         newton->most_descents = MOST_DESCENTS;
         const int accepted = attempt.found && (attempt.is_shortest || !attempt.jumps);
@@ -432,8 +432,13 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
             OST_TRY(accept(newton, &attempt, to, state));
             continue;
         }
-        if (!may_cut)
+        if (!may_cut && !follows)
             return ost_newton_give_up(newton, state, attempt.t, attempt.rest);
+        if (!may_cut) { /* the path turns back here: down to another state at rest, in a long step */
+            follows = 0;
+            state->step = left;
+            continue;
+        }
         OST_TRY(cut_back(newton, step, attempt.jumps, state));
     }
     return OST_SUCCESS;
