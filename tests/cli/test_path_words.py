@@ -47,7 +47,7 @@ check(refused.exit_code == 2 and "where two meet, give both the same table" in r
 # Turned inside out half-way, by a jump, and back again: only that step's own warnings tell.
 pushed = """constraints:
   - {on: {boundary: xmin}, displacement: [0, 0, 0]}
-  - {on: {boundary: xmax}, displacement: [-1.2, 0, 0], time: [[0, 0], [0.5, 1], [1, 0.1]]}
+  - {on: {boundary: xmax}, displacement: [-1.1, 0, 0], time: [[0, 0], [0.5, 1], [1, 0.1]]}
 large_rotation: on
 path: {times: [0.1, 0.5, 1]}
 """
