@@ -15,7 +15,7 @@ typedef struct OstInterest {
                        much it grows with each displacement, and with a mixed form's pressures; or NULL */
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
-    double doubt; /* of a reaction: so much of it others may bear that hold the same nodes */
+    double doubt; /* of a reaction: the part that other supports of the same nodes may bear as well */
     double size;  /* of a reaction: the sum of the lengths of the nodes' forces, or moments */
 } OstInterest;
 

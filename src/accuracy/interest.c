@@ -91,8 +91,8 @@ static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, 
     return status;
 }
 
-/* Their reaction, or its moment; what of it others may bear in their place, or they in that of others; and the sum of
- * the lengths of its terms. */
+/* Seven numbers: their reaction, or its moment; the part that other supports may bear as well; and the sum of the
+ * lengths of the nodes' forces, or moments. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                                const Borne *borne, double *forces, double sum[7])
 {
@@ -137,7 +137,7 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
                              OstInterest *interest)
 {
     Borne borne = {0};
-    double sum[7], direction[3];
+    double sum[7] = {0.0}, direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
     if (watch->of_moment && !ost_problem_is_linear(problem))
         OST_TRY(

@@ -39,7 +39,7 @@ static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const Os
 }
 
 /* Axes from gradients, in place of those that came with the mesh. Potentials are of the order of the displacement:
- * linear ones made fibres turn from one quadratic tet to the next, and a reaction 6 % too small where it is 1 %. */
+ * linear ones made fibres turn from one quadratic tet to the next, and a reaction 7 % too small where it is 1.5 %. */
 static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
 {
     const OstMesh *mesh = scene->mesh;
