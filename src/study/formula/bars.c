@@ -61,16 +61,24 @@ static void warping(const double *k, double y, double z, double x[3])
     x[0] = -0.5 * k[NU12] * y * y * z + a * z * z * z / 6.0 + c * z;
     x[1] = -k[NU12] * y * z;
     x[2] = -0.5 * k[NU12] * y * y + 0.5 * a * z * z + c;
-    for (int n = 1; n <= FLEXURE_TERMS && k[NU12] != 0.0; n++) {
-        const double wave = 2.0 * n * M_PI / k[B];
-        const double decay = wave * sqrt(k[G12] / k[G13]);
-        const double factor = (n % 2 ? -1.0 : 1.0) * k[NU12] * pow(k[B] / (M_PI * n), 2) / decay;
-        /* sinh(decay z) and cosh(decay z) over cosh(decay h / 2), without overflow */
-        const double rise = exp(decay * (z - half)), fall = exp(-decay * (z + half));
-        const double whole = 1.0 + exp(-2.0 * decay * half);
-        x[0] += factor * cos(wave * y) * (rise - fall) / whole;
-        x[1] -= factor * wave * sin(wave * y) * (rise - fall) / whole;
-        x[2] += factor * decay * cos(wave * y) * (rise + fall) / whole;
+    if (k[NU12] == 0.0)
+        return;
+    /* sinh(decay z) and cosh(decay z) over cosh(decay h / 2), without overflow; each term's functions from the last's
+     */
+    const double wave = 2.0 * M_PI / k[B], decay = wave * sqrt(k[G12] / k[G13]);
+    const double turn[2] = {cos(wave * y), sin(wave * y)};
+    const double rises = exp(decay * (z - half)), falls = exp(-decay * (z + half)), wholes = exp(-2.0 * decay * half);
+    double cosine = 1.0, sine = 0.0, rise = 1.0, fall = 1.0, whole = 1.0,
+           factor = k[NU12] * pow(k[B] / M_PI, 2) / decay;
+    for (int n = 1; n <= FLEXURE_TERMS; n++) {
+        const double turned = cosine * turn[0] - sine * turn[1];
+        sine = sine * turn[0] + cosine * turn[1];
+        cosine = turned;
+        rise *= rises, fall *= falls, whole *= wholes, factor = -factor;
+        const double times = factor / (1.0 + whole) / (n * n);
+        x[0] += times * cosine * (rise - fall) / n;
+        x[1] -= times * wave * sine * (rise - fall);
+        x[2] += times * decay * cosine * (rise + fall);
     }
 }
 

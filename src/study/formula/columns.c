@@ -49,16 +49,23 @@ static void torsion_warping(const double *k, const double p[3], double phi[3])
     phi[0] = p[0] * p[1];
     phi[1] = p[1];
     phi[2] = p[0];
-    for (int n = 0; n < FIELD_TERMS; n++) {
-        const double wave = (2 * n + 1) * M_PI / k[A];
-        const double decay = wave * sqrt(k[GXZ] / k[GYZ]);
-        const double factor = (n % 2 ? 8.0 : -8.0) / (k[A] * wave * wave * decay);
-        /* sinh(decay y) and cosh(decay y) over cosh(decay b / 2), without overflow */
-        const double rise = exp(decay * (p[1] - half)), fall = exp(-decay * (p[1] + half));
-        const double whole = 1.0 + exp(-2.0 * decay * half);
-        phi[0] += factor * sin(wave * p[0]) * (rise - fall) / whole;
-        phi[1] += factor * wave * cos(wave * p[0]) * (rise - fall) / whole;
-        phi[2] += factor * decay * sin(wave * p[0]) * (rise + fall) / whole;
+    /* sinh(decay y) and cosh(decay y) over cosh(decay b / 2), without overflow; each term's functions from the last's
+     */
+    const double wave = M_PI / k[A], decay = wave * sqrt(k[GXZ] / k[GYZ]);
+    const double turn[2] = {cos(2.0 * wave * p[0]), sin(2.0 * wave * p[0])};
+    const double rises = exp(decay * (p[1] - half)), falls = exp(-decay * (p[1] + half)),
+                 wholes = exp(-2.0 * decay * half);
+    double cosine = cos(wave * p[0]), sine = sin(wave * p[0]), rise = rises, fall = falls, whole = wholes;
+    double factor = -8.0 / (k[A] * wave * wave * decay);
+    for (int n = 1; n < 2 * FIELD_TERMS; n += 2) {
+        const double times = factor / (1.0 + whole) / (n * n);
+        phi[0] += times * sine * (rise - fall) / n;
+        phi[1] += times * wave * cosine * (rise - fall);
+        phi[2] += times * decay * sine * (rise + fall);
+        const double turned = cosine * turn[0] - sine * turn[1];
+        sine = sine * turn[0] + cosine * turn[1];
+        cosine = turned;
+        rise *= rises * rises, fall *= falls * falls, whole *= wholes * wholes, factor = -factor;
     }
 }
 
