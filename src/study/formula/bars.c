@@ -242,17 +242,18 @@ static OstStatus prepare_uniform_load(const OstCase *c, const double *parameter,
 
 static void uniform_load(const double *k, const double p[3], double u[3])
 {
-    const double x = p[0], z = p[2], length = k[LENGTH], h = k[H];
+    const double x = p[0], z = p[2], length = k[LENGTH], h = k[H], left = length - x;
+    const double cube = length * length * length, cubed = z * z * z; /* pow would take most of the time */
     const double bend = k[LOAD] / (k[E] * second_moment(k));
     const double shear = k[LOAD] / (k[G13] * second_moment(k));
-    const double rotation = bend * (pow(length, 3) - pow(length - x, 3)) / 6.0;
-    const double deflection = bend / 6.0 * (pow(length, 3) * x + (pow(length - x, 4) - pow(length, 4)) / 4.0);
+    const double rotation = bend * (cube - left * left * left) / 6.0;
+    const double deflection = bend / 6.0 * (cube * x + (left * left * left * left - cube * length) / 4.0);
     const double slip = shear * h * h / 10.0 * (length * x - x * x / 2.0);
     /* Integral of sigma_zz / E3 over z, of mean zero over the section. */
     const double squash =
-        k[LOAD] / (k[B] * k[E3]) * (z * z / (4.0 * h) - pow(z, 4) / (2.0 * pow(h, 3)) - 7.0 * h / 480.0);
-    u[0] = -rotation * z + shear * x * (pow(z, 3) / 6.0 - h * h * z / 40.0) +
-           0.5 * shear * length * (h * h * z / 20.0 - pow(z, 3) / 3.0);
+        k[LOAD] / (k[B] * k[E3]) * (z * z / (4.0 * h) - cubed * z / (2.0 * h * h * h) - 7.0 * h / 480.0);
+    u[0] = -rotation * z + shear * x * (cubed / 6.0 - h * h * z / 40.0) +
+           0.5 * shear * length * (h * h * z / 20.0 - cubed / 3.0);
     u[1] = 0.0;
     u[2] = deflection + slip + squash;
 }

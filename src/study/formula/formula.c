@@ -116,8 +116,8 @@ static OstStatus exact_stress(const void *data, const double point[3], double st
         return OST_SUCCESS;
     }
     OST_TRY(exact_gradient(data, point, g));
-    OST_TRY(exact_stiffness(data, point, c));
     OST_TRY(exact_axes(exact, point, axes));
+    ost_material_rotate_stiffness(exact->material.stiffness, axes, c);
     ost_strain_to_world(exact->eigenstrain, axes, eigenstrain);
     double strain[6] = {g[0], g[4], g[8], g[1] + g[3], g[5] + g[7], g[6] + g[2]};
     for (int p = 0; p < 6; p++)
