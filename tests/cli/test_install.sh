@@ -46,7 +46,7 @@ cd "$folder"
 answers() { # RANKS FOLDER
     "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/solve_case" "$ORTHOSTAT_SOURCE/cases/block/sliding.yaml" sliding.vtkhdf
     "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/own_mesh"
-    "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/ten_loads" | sed 's/,.*//'
+    [ -n "$sanitizers" ] || "$ORTHOSTAT_MPIEXEC" -n "$1" "$2/ten_loads" | sed 's/,.*//'
 }
 answers 1 by-pkg-config >answers-pkg-config
 answers 2 by-cmake >answers-cmake
@@ -54,8 +54,8 @@ diff answers-pkg-config answers-cmake || fail "the answers differ between pkg-co
 cat answers-cmake
 grep -q 'moves by 0.00106536 at most, at (2, 1, 1)' answers-cmake || fail "solve_case: another answer"
 grep -q 'straight grain: 0.0105.*1\.6. times as far' answers-cmake || fail "own_mesh: another answer"
-[ "$(grep -c 'degrees: moves by' answers-cmake)" = 10 ] || fail "ten_loads: not ten answers"
-if [ -z "$sanitizers" ]; then # it takes long with them, and calls little that the others do not
+if [ -z "$sanitizers" ]; then # these take long with them, and call little that the others do not
+    [ "$(grep -c 'degrees: moves by' answers-cmake)" = 10 ] || fail "ten_loads: not ten answers"
     "$ORTHOSTAT_MPIEXEC" -n 2 by-pkg-config/formulations >formulations
     [ "$(grep -c '^| 10* |' formulations)" = 4 ] || fail "formulations: not four rows"
 fi

@@ -127,4 +127,5 @@ seen = on_terminal()
 for words in ("% of the whole", "solve ", "multigrid setup"):  # others may be over before the line is drawn again
     check(words in seen, f"the terminal shows nothing of '{words}': {seen[-2000:]}")
 check(seen.count("\n") <= 2 and seen.rstrip("\n").endswith("\x1b[K"), "the line is not erased at the end: " + repr(seen[-200:]))
+write(folder, "bar.yaml", CASE.replace("[120, 30, 30]", "[60, 16, 16]"))
 check(on_terminal("-q") == "", "-q shows something")

@@ -3,7 +3,7 @@ import json
 import os
 
 from bricks import brick_mesh
-from program import check, fewer, new_folder, run, solve, write
+from program import SANITIZED, check, fewer, new_folder, run, solve, write
 
 RANKS = (1, 3)
 
@@ -304,12 +304,13 @@ def what_cannot_be_is_refused():
             check(finished.exit_code not in (0, 139, 134) and words in finished.errors, f"expected '{words}' in:\n{finished.errors}")
 
 
-a_rigid_face_bends_a_bar()
-what_lies_elsewhere_does_not_matter()
+if not SANITIZED:  # numbers alone
+    a_rigid_face_bends_a_bar()
+    what_lies_elsewhere_does_not_matter()
+    statics_alone_gives_reactions()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
-statics_alone_gives_reactions()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()

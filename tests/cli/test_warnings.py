@@ -1,7 +1,7 @@
 """Every warning that goes to standard error stands in the JSON report too."""
 import json
 
-from program import check, new_folder, run, write
+from program import SANITIZED, check, new_folder, run, write
 
 # A block in which a vertex is used by no tet, nearly incompressible, with a vertex watched where there is none.
 MESH = """$MeshFormat
@@ -54,14 +54,15 @@ def main():
     compare(["check", "case.yaml"], folder, KINDS, ["--json"])
     compare(["explain", "case.yaml"], folder, KINDS[:1], ["--json"])
     compare(["cost", "case.yaml", "--refinements", "0", "--orders", "1", "--tolerances", "1e-8", "--accuracies", "-"], folder, KINDS[:2], ["--json", "-"])
-    zero_loads(folder)
-    overridden_materials(folder)
-    odd_units(folder)
-    radians(folder)
     plane_faces(folder)
-    absent_fields(folder)
     arbitrary_points(folder)
-    nothing_to_refine(folder)
+    if not SANITIZED:  # words of `check`
+        zero_loads(folder)
+        overridden_materials(folder)
+        odd_units(folder)
+        radians(folder)
+        absent_fields(folder)
+        nothing_to_refine(folder)
 
 
 # A load of zero does nothing; where a sweep, a load case or --set says zero, it is meant.

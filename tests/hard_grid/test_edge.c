@@ -50,12 +50,10 @@ static void what_the_stiffness_has_lost_is_refused_or_corrected(void **state)
 static void what_rounding_has_cost_is_corrected(void **state)
 {
     const char *const words[] = {
-        "beam, order 2, nu 0.45, E3 x 1e+06, aligned",         "beam, order 2, 0.999 of border, E3 x 1e+06, aligned",
-        "plate, order 2, nu -0.5, E3 x 1000, aligned",         "plate, order 2, nu 0.45, E3 x 1e+06, smooth",
-        "stiff, order 1, 0.99 of border, E2 x 1e+06, aligned", "stiff, order 2, nu 0.3, E2 x 1e+06, aligned",
-        "stiff, order 2, nu 0.45, E3 x 1e+06, aligned",        "stiff, order 1, nu 0.499, E2 x 1e+06, aligned",
-        "plate, order 2, nu 0.499, E2 x 1e+06, smooth",        "beam, order 1, nu 0.49, E1 x 1e+06, cylindrical",
-        "beam, order 2, nu 0.499, E2 x 1e+06, smooth",         "beam, order 2, nu 0.49, E2 x 1000, aligned"};
+        "beam, order 2, nu 0.45, E3 x 1e+06, aligned",   "beam, order 1, nu 0.49, E1 x 1e+06, cylindrical",
+        "beam, order 2, nu 0.49, E2 x 1000, aligned",    "plate, order 2, nu -0.5, E3 x 1000, aligned",
+        "plate, order 2, nu 0.45, E3 x 1e+06, smooth",   "stiff, order 2, nu 0.3, E2 x 1e+06, aligned",
+        "stiff, order 1, nu 0.499, E2 x 1e+06, aligned", "stiff, order 2, nu 0.45, E3 x 1e+06, aligned"};
     const int count = (int)(sizeof words / sizeof *words);
     int solved = 0;
     for (int k = 0; k < count; k++) {
