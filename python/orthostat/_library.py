@@ -106,9 +106,11 @@ def array(values, shape, what, dtype=float):
     """`values` as a contiguous array for the library; a number of `shape` that is None may be any. Not copied where it
     is one already."""
     given = numpy.asarray(values)
+    if given.dtype.kind == "c":
+        raise ValueError(f"{what}: real numbers are wanted, and these are complex")
     made = numpy.ascontiguousarray(given, dtype)
-    if given.dtype.kind == "f" and made.dtype.kind == "i" and not (made == given).all():
-        raise ValueError(f"{what}: whole numbers are wanted, and these have fractions")
+    if given.dtype.kind in "fiu" and given.dtype != made.dtype and made.dtype.kind == "i" and not (made == given).all():
+        raise ValueError(f"{what}: whole numbers are wanted, up to {numpy.iinfo(dtype).max}, and these are others")
     if made.ndim != len(shape) or any(wanted not in (None, found) for wanted, found in zip(shape, made.shape)):
         words = " × ".join("any" if number is None else str(number) for number in shape)
         raise ValueError(f"{what}: an array of {words} is wanted, and this is {' × '.join(map(str, made.shape)) or 'a number'}")

@@ -203,11 +203,11 @@ class Mesh:
     def gather_nodes(self, values):
         """Collective. Of an array over this rank's nodes, the rows of all nodes of the body in the order of their labels,
         on every rank. (The labels of MeshArrays are in the order of their points.)"""
-        return self._gather(self.node_labels[:self.owned_nodes], values)
+        return self._gather("gather_nodes", self.node_labels, self.owned_nodes, values)
 
     def gather_tets(self, values):
         """Collective. The same over tets."""
-        return self._gather(self.tet_labels[:self.owned_tets], values)
+        return self._gather("gather_tets", self.tet_labels, self.owned_tets, values)
 
     def whole(self):
         """Collective. (points, tets) of the whole body on every rank, in the order of gather_nodes and gather_tets."""
@@ -215,6 +215,9 @@ class Mesh:
         tets = self.gather_tets(self.node_labels[self.tets[:self.owned_tets]])
         return self.gather_nodes(self.points), numpy.searchsorted(numpy.sort(labels), tets)
 
-    def _gather(self, labels, values):
-        values = numpy.asarray(values)[:len(labels)]
-        return self.context.gather(values)[numpy.argsort(self.context.gather(labels), kind="stable")]
+    def _gather(self, name, labels, owned, values):
+        values = numpy.asarray(values)
+        if numpy.shape(values)[:1] not in ((len(labels),), (owned,)):
+            raise ValueError(f"{name}: a row of each of this rank's {len(labels)} is wanted, or of each of its own {owned}, "
+                             f"and this is of shape {values.shape}")
+        return self.context.gather(values[:owned])[numpy.argsort(self.context.gather(labels[:owned]), kind="stable")]

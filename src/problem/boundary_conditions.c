@@ -117,6 +117,34 @@ static OstStatus select_faces(const OstScene *scene, const OstSelection *on, Ost
                      "surface, or widen the selection");
 }
 
+/* Does a selection get nodes from `order: 2` or refinement? Boundaries of points do not. */
+static int grows(const OstScene *scene, const OstSelection *on)
+{
+    int more = on->kind != OST_SELECT_VERTICES && on->kind != OST_SELECT_NEAREST && on->kind != OST_SELECT_BOUNDARY;
+    for (int n = 0; on->kind == OST_SELECT_BOUNDARY && n < on->boundaries.count; n++) {
+        const int number = ost_mesh_find_boundary(scene->mesh, on->boundaries.name[n]);
+        more |= number >= 0 && scene->mesh->boundaries[number].dimension > 0;
+    }
+    return more && (scene->mesh->nodes_per_tet == 10 || scene->c->refinement > 0);
+}
+
+/* Warns of what acts on each node where the mesh decides how many there are. */
+static OstStatus warn_of_each(const OstScene *scene, const OstSelection *on, int line, const char *what,
+                              const char *instead, OstLocal count, const OstLocal *nodes)
+{
+    double all = 0.0;
+    for (OstLocal i = 0; i < count; i++)
+        all += nodes[i] < scene->mesh->owned_nodes;
+    OST_TRY(ost_sum(scene->ctx, 1, &all));
+    if (all > 1.0 && grows(scene, on))
+        ost_warn(scene->ctx,
+                 "%s:%d: %s acts on each node that is selected, %.0f here with those that quadratic tets or refinement "
+                 "have added; another mesh has more or fewer, and another sum. Use %s, or name the vertices (vertices: "
+                 "[...])",
+                 scene->c->path, line, what, all, instead);
+    return OST_SUCCESS;
+}
+
 /* Adds the springs of the case's entry to the selected nodes, or faces. */
 static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, OstLocal count, const OstLocal *selected,
                              int nodes_per_face, OstSupports *supports)
@@ -124,6 +152,9 @@ static OstStatus add_springs(const OstScene *scene, const OstSpring *spring, Ost
     OstSpringStiffness stiffness = {.along = spring->along, .across = spring->across};
     memcpy(stiffness.direction, spring->direction, sizeof stiffness.direction);
     OST_TRY(ost_agree(scene->ctx, ost_supports_allow_springs(supports)));
+    if (spring->kind == OST_SPRING_POINT)
+        OST_TRY(warn_of_each(scene, &spring->on, spring->line, "a spring", "foundation (stiffness by area)", count,
+                             selected));
     if (spring->kind == OST_SPRING_FOUNDATION)
         OST_TRY(
             ost_agree(scene->ctx, ost_supports_add_foundation(supports, count, selected, nodes_per_face, &stiffness)));
@@ -225,10 +256,11 @@ static OstStatus add_vertex_load(const OstScene *scene, const OstLoad *load, dou
     OstLocal count = 0;
     OstLocal *nodes = NULL;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &nodes));
-    OstStatus status;
-    if (load->kind == OST_LOAD_POINT_FORCE)
-        status = ost_agree(scene->ctx, ost_load_point_force(scene->mesh, count, nodes, load->vector, force));
-    else
+    OstStatus status = OST_SUCCESS;
+    if (load->kind == OST_LOAD_POINT_FORCE) {
+        status = warn_of_each(scene, &load->on, load->line, "a point_force", "total_force", count, nodes);
+        OST_THEN(ost_agree(scene->ctx, ost_load_point_force(scene->mesh, count, nodes, load->vector, force)));
+    } else
         status = ost_load_shared_force(scene->mesh, count, nodes, load->vector, force);
     OST_FREE(nodes);
     return status;

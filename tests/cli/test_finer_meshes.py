@@ -38,7 +38,10 @@ def solve(accuracy, **changes):
 for changes, words in (({"load": "point_force: [0, 0, -1e4]"}, ("beam.yaml:4: a point_force", "total_force")),
                        ({"more": "springs: [{on: {boundary: xmax}, spring: 1e6}]\n"}, ("a spring", "foundation"))):
     more = changes.pop("more", "")
-    check(start("solve", more=more, **changes).exit_code == 0, "on the mesh as it is, it is what it says")
+    done = start("solve", more=more, **changes)
+    check(done.exit_code == 0 and "acts on each node" not in done.errors, "on the mesh as it is, it is what it says")
+    done = start("check", more=more + "element: {order: 2}", **changes)
+    check("acts on each node that is selected, 25 here" in done.errors and all(word in done.errors for word in words), done.errors)
     for command in ("check", "solve"):
         done = start(command, more=more + "accuracy: {relative_error: 0.1}", **changes)
         check(done.exit_code == 2 and all(word in done.errors for word in words), done.errors)

@@ -35,16 +35,66 @@ check(abs(curved["volume"] - 1 / 6 - 0.1 / 6) < 1e-12 and abs(curved["boundaries
 FOUR = "*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
 ONE = "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n"
 for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NGEN\n1, 4, 1\n" + ONE, "*NGEN"),
+                    (FOUR + ONE + "*ELEMENT, TYPE=AC3D4\n2, 1, 2, 3, 4\n", "1 solid elements"),
                     ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR, "ends within a part"),
                     ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*PART, NAME=B\n" + FOUR + "*END PART\n", "no instance of them"),
                     ("*PART, NAME=A\n" + FOUR + ONE + "*END PART\n*INSTANCE, NAME=I, PART=B\n*END INSTANCE\n", "the part 'B', which is not before"), ("", "is empty")):
     done = run("mesh", write(folder, "told.inp", text), folder=folder)
     check(done.exit_code == 2 and words in done.errors, f"{words}: {done.errors}")
-held = inspect(write(folder, "mark.inp", "\ufeff" + FOUR + ONE + "*NSET, NSET=N, ELSET=e\n"))
-check(held["tets"] == 1 and held["boundaries"][0]["name"] == "N" and held["boundaries"][0]["count"] == 4, f"{held}")
-write(folder, "nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n")
-held = inspect(write(folder, "included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes.bdf'\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
+# CAE gives the nodes and the solids of a face one name: the nodes become its faces all the same, but for a name that has shells. Data
+# lines may lie in files of their own.
+write(folder, "nodes.txt", "3, 0, 1, 0\n4, 0, 0, 1\n")
+write(folder, "tets.txt", "1, 1, 2, 3, 4\n")
+SHELL = "*ELEMENT, TYPE=S3, ELSET=SHELL\n2, 1, 2, 3\n*NSET, NSET=shell\n1, 2, 3\n"
+held = inspect(write(folder, "mark.inp", "\ufeff*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n*NODE, INPUT=nodes.txt\n"
+                     "*ELEMENT, TYPE=C3D4, ELSET=E, INPUT=tets.txt\n*NSET, NSET=E, ELSET=e\n" + SHELL))
+check(held["tets"] == 1 and {(b["name"], b["of"], b["count"]) for b in held["boundaries"]} ==
+      {("E", "faces", 4), ("SHELL", "faces", 1), ("shell", "faces", 1)}, f"{held}")
+write(folder, "nodes.bdf", "GRID,1,,0.,0.,0. $ the first\nGRID,2,,1.,0.,0.\nGRID*,3,,0.,1.\n*,0.\n   $ more\nGRID    4               0.      0.      1.      $ up\n")
+held = inspect(write(folder, "included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes\n.bdf' $ over two lines\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
 check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")
+PYRAMID = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,0.,0.,3.\nCPYRA,1,7,1,2,3,4,5\n"
+check(abs(inspect(write(folder, "pyramid.fem", PYRAMID))["volume"] - 1) < 1e-12, "OptiStruct's pyramid")
+done = run("mesh", write(folder, "odd.bdf", PYRAMID + "CHEX8,2,7,1,2,3,4,5,5\n,5,5\n"), folder=folder)
+check(done.exit_code == 2 and "1 solid elements" in done.errors and "CHEX8" in done.errors, done.errors)
+
+# I-deas: permanent groups; nodes in another coordinate system than the global one are refused.
+UNV = f"""    -1
+  2420
+         1
+Part
+         1         0         8
+CS1
+{"    1.0D+00    0.0D+00    0.0D+00"}
+{"    0.0D+00    1.0D+00    0.0D+00"}
+{"    0.0D+00    0.0D+00    1.0D+00"}
+{"    0.0D+00    0.0D+00    0.0D+00"}
+    -1
+    -1
+  2411
+{"".join(f"{n:10d}         1         1        11{chr(10)}{x}{chr(10)}" for n, x in enumerate(("0. 0. 0.", "1. 0. 0.", "0. 1. 0.", "0. 0. 1."), 1))}    -1
+    -1
+  2412
+         1       111         1         1         7         4
+         1         2         3         4
+    -1
+    -1
+  2417
+         1         0         0         0         0         0         0         1
+wood
+         8         1
+    -1
+"""
+check([r["name"] for r in inspect(write(folder, "groups.unv", UNV))["regions"]] == ["wood"], "2417")
+write(folder, "quote.unv", UNV.replace("wood", 'wood "x"'))
+for name in "quote.msh", "quote.inp":
+    done = run("mesh", "quote.unv", name, folder=folder)
+    check(done.exit_code == 2 and "double quote" in done.errors and not os.path.exists(os.path.join(folder, name)), done.errors)
+OLD = "    -1\n    18\n         1         0         0         8         1\nCS1\n 0. 0. 0. 1. 0. 0.\n 0. 0. 1.\n    -1\n"
+for text in (UNV.replace("         0         8\nCS1", "         1         8\nCS1"), UNV.replace("    0.0D+00\n    -1", "    5.0D+00\n    -1"),
+             OLD + UNV):
+    done = run("mesh", write(folder, "turned.unv", text), folder=folder)
+    check(text != UNV and done.exit_code == 2 and "coordinate system 1" in done.errors, done.errors)
 
 # Parts and their instances, moved and turned: sets have the instance's name before theirs, numbers of the second begin at 1000000000;
 # the assembly's own node (a reference point) has a number that the first instance has too. An independent instance has its own mesh.
@@ -179,6 +229,18 @@ def in_pieces(name, kind, points, cells, numbers=None):
             group["PointData/" + names["numbers"]] = np.concatenate(numbers)
     return name
 
+
+# What VTK marks as hidden, or as another piece's, is no part of the body.
+ghosts = in_pieces("ghosts.vtkhdf", 10, [np.eye(4)[:, :3], np.eye(4)[:, :3] * 2], [[range(4)], [range(4)]])
+with h5py.File(os.path.join(folder, ghosts), "a") as file:
+    file["VTKHDF/CellData/vtkGhostType"] = np.array([0, 32], dtype=np.uint8)
+text = open(os.path.join(folder, in_pieces("hidden.vtu", 10, [np.eye(4)[:, :3]] * 2, [[range(4)]] * 2))).read().split("</Piece>")
+mark = '<CellData><DataArray type="UInt8" Name="vtkGhostType" format="ascii">{}</DataArray></CellData></Piece>'
+write(folder, "hidden.vtu", text[0] + mark.format(0) + text[1] + mark.format(1) + text[2])
+for name in ghosts, "hidden.vtu":
+    done = run("mesh", name, "--json", "-", folder=folder)
+    held = json.loads(done.output)
+    check(held["tets"] == 1 and abs(held["volume"] - 1 / 6) < 1e-12 and "vtkGhostType" in done.errors, f"{name}: {held} {done.errors}")
 
 CUBE = np.array(CORNERS["HexahedraQ2"]) / 2
 TET = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float)

@@ -67,6 +67,11 @@ class Render(unittest.TestCase):
             self.assertGreater(panel[170:].mean(), 0.02)  # its section
             self.assertLess(abs(panel.mean() - panels[0].mean()), 0.01)
 
+    def test_the_title_names_the_load_case(self):
+        title_of = runpy.run_path(RENDER)["title_of"]
+        self.assertEqual([title_of("shelf", results) for results in (["shelf.vtu"], ["t/shelf.vtkhdf:full"], ["a.vtu", "b.vtu"])],
+                         ["shelf", "shelf, full", "shelf"])
+
     def test_von_mises_is_named_once(self):
         shade_of = runpy.run_path(RENDER)["shade_of"]
         bodies = [SimpleNamespace(value=numpy.array([0.0, 1.0]), envelope=False)]

@@ -252,6 +252,8 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
         own = mesh.points[:mesh.owned_nodes]
         assert np.array_equal(mesh.share(mesh.gather_nodes(own)), own) and len(own) > 0
         raises(ValueError, f"rows for all {mesh.global_nodes} nodes", mesh.share, np.zeros(mesh.global_nodes + 1))
+        raises(ValueError, "gather_nodes: a row of each", mesh.gather_nodes, np.zeros(mesh.owned_nodes - 1))
+        raises(ValueError, "gather_tets: a row of each", mesh.gather_tets, np.zeros(mesh.tet_count + 1))
 
     # The same by shares of all ranks, and as a problem of its own parts.
     nodes, mine = np.array_split(np.arange(len(points)), size)[rank], np.array_split(np.arange(len(tets)), size)[rank]
@@ -277,6 +279,9 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
     assert np.abs(product - inside[k.node[:k.rows]]).max(initial=0) < 1e-10 * 0.005
     assert problem.mesh.quadratic().global_nodes > mesh.global_nodes and mesh.refined().global_tets == 8 * len(tets)
     raises(ValueError, "tets: whole numbers are wanted", orthostat.MeshArrays, points, tets + 0.5)
+    raises(ValueError, "regions: whole numbers are wanted, up to 2147483647", orthostat.MeshArrays, points, tets,
+           regions=np.full(len(tets), 2**32))
+    raises(ValueError, "points: real numbers are wanted", orthostat.MeshArrays, points + 1j, tets)
     raises(ValueError, "a tet has 4 or 10 nodes", orthostat.MeshArrays, points, tets[:, :3])
     raises(orthostat.InvalidInput, "tet 1", orthostat.Mesh, orthostat.MeshArrays(points, tets[:, [1, 0, 2, 3]]))
 

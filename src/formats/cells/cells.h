@@ -136,8 +136,8 @@ OstStatus ost_cells_make_regions(OstCells *cells, OstCellKind tets);
 OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets);
 
 /* Local. Sets of nodes that hold whole faces of the surface, and nothing beside them, become sets of these faces,
- * unless another set or group has the name. Free faces of solids, which no other solid has, join those that their set's
- * name has. */
+ * unless another set or group has the name that bounds too. Free faces of solids, which no other solid has, join those
+ * that their set's name has. */
 OstStatus ost_cells_make_faces(OstCells *cells, OstCellKind tets);
 
 /* The face of a tet opposite a vertex: its vertices, then (of quadratic tets) mid-edge nodes 01 12 20. */

@@ -5,7 +5,6 @@
 #include "formats/cells/cells.h"
 
 #include <string.h>
-#include <strings.h>
 
 /* Sets of something else that become sets of faces.
  * Programs name faces by their nodes: nodes that `order: 2`, refinement, or the split of a quadratic hexahedron add
@@ -19,15 +18,43 @@ typedef struct Faces {
 } Faces;
 enum { WITHIN = 1, COVERED = 2 };
 
-/* What shares its name with other sets or groups stays a set of nodes. */
+/* Do the cells of a group, of lower dimension than solids, become a boundary of this name? */
+static int is_group_of_faces(const OstCells *cells, const OstCellName *name)
+{
+    for (int k = 0; k < OST_CELL_KINDS; k++) {
+        const OstCellList *list = &cells->list[k];
+        const int dimension = ost_cell_facts[k].dimension;
+        if (dimension < 3 && (name->dimension < 0 || name->dimension == dimension))
+            for (OstLocal i = 0; i < list->count; i++)
+                if (list->group[i] == name->group)
+                    return 1;
+    }
+    return 0;
+}
+
+/* Does a set become one? One of solids alone does not: CAE gives it and the set of its nodes one name. */
+static int is_set_of_faces(const OstCells *cells, const OstCellSet *set)
+{
+    OstLocal cell = 0;
+    if (set->kind != OST_SET_OF_CELLS)
+        return set->count > 0;
+    for (OstLocal i = 0; i < set->count; i++) {
+        const OstCellKind kind = ost_cells_find(cells, set->item[i], &cell);
+        if (kind < OST_CELL_KINDS && ost_cell_facts[kind].dimension < 3)
+            return 1;
+    }
+    return 0;
+}
+
+/* What shares its name with another boundary stays a set of nodes. */
 static int is_alone(const OstCells *cells, int s)
 {
     const char *name = cells->set[s].name;
     for (int i = 0; i < cells->set_count; i++)
-        if (i != s && cells->set[i].count > 0 && strcasecmp(cells->set[i].name, name) == 0)
+        if (i != s && strcmp(cells->set[i].name, name) == 0 && is_set_of_faces(cells, &cells->set[i]))
             return 0;
     for (int n = 0; n < cells->name_count; n++)
-        if (strcasecmp(cells->name[n].name, name) == 0)
+        if (strcmp(cells->name[n].name, name) == 0 && is_group_of_faces(cells, &cells->name[n]))
             return 0;
     return 1;
 }

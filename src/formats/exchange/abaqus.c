@@ -42,7 +42,9 @@ static const struct {
     {"CPS8", OST_CELL_QUAD8, 2},       {"CPE8", OST_CELL_QUAD8, 2},       {"DS8", OST_CELL_QUAD8, 2},
     {"S9", OST_CELL_QUAD9, 2},         {"M3D9", OST_CELL_QUAD9, 2},       {"C3D", OST_CELL_KINDS, 3},
     {"DC3D", OST_CELL_KINDS, 3},       {"SC", OST_CELL_KINDS, 3},         {"CSS8", OST_CELL_KINDS, 3},
-    {"COH3D", OST_CELL_KINDS, 3},
+    {"COH3D", OST_CELL_KINDS, 3},      {"AC3D", OST_CELL_KINDS, 3},       {"Q3D", OST_CELL_KINDS, 3},
+    {"EC3D", OST_CELL_KINDS, 3},       {"PC3D", OST_CELL_KINDS, 3},       {"CIN3D", OST_CELL_KINDS, 3},
+    {"CCL", OST_CELL_KINDS, 3},        {"DCC3D", OST_CELL_KINDS, 3},      {"GK3D", OST_CELL_KINDS, 3},
 };
 
 static void find_type(OstInp *inp, const char *type)
@@ -296,11 +298,10 @@ static void join_path(const char *beside, const char *name, char path[PATH_MAX])
         snprintf(path, PATH_MAX, "%.*s/%s", (int)(slash - beside), beside, name);
 }
 
-static OstStatus include(OstInp *inp, const OstInpKeyword *keyword, int depth)
+static OstStatus include(OstInp *inp, const char *name, int depth)
 {
     char path[PATH_MAX];
     OstLineReader *outer = inp->lines, lines;
-    const char *name = ost_inp_value(keyword, "INPUT");
     if (!name || depth == MOST_INCLUDES)
         return OST_RAISE_LINE(inp->lines,
                               name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
@@ -325,14 +326,9 @@ static OstStatus mark_section(OstInp *inp, const OstInpKeyword *keyword)
     return ost_inp_oriented(inp, keyword);
 }
 
-static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int depth)
+static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword)
 {
     const char *name = keyword->name;
-    if (inp->filled > 0)
-        return OST_RAISE_LINE(inp->lines, "element %" PRId64 " has %d nodes, expected %d", inp->element[0],
-                              inp->filled - 1, ost_cell_facts[inp->kind].nodes);
-    if (strcmp(name, "INCLUDE") == 0)
-        return include(inp, keyword, depth);
     inp->block = OST_INP_NOTHING;
     inp->set = inp->of = -1;
     if (strcmp(name, "NODE") == 0)
@@ -367,6 +363,21 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword, int dept
     if (strcmp(name, "INSTANCE") == 0)
         return ost_inp_begin_instance(inp, keyword);
     return strcmp(name, "ENDINSTANCE") == 0 ? ost_inp_end_instance(inp) : ost_inp_pass(inp, keyword);
+}
+
+/* Data lines of what is read may lie in a file of their own. */
+static OstStatus read_keyword(OstInp *inp, int depth)
+{
+    OstInpKeyword keyword;
+    OST_TRY(ost_inp_keyword(inp, &keyword));
+    const char *input = ost_inp_value(&keyword, "INPUT");
+    if (inp->filled > 0)
+        return OST_RAISE_LINE(inp->lines, "element %" PRId64 " has %d nodes, expected %d", inp->element[0],
+                              inp->filled - 1, ost_cell_facts[inp->kind].nodes);
+    if (strcmp(keyword.name, "INCLUDE") == 0)
+        return include(inp, input, depth);
+    OST_TRY(begin_block(inp, &keyword));
+    return input && inp->block != OST_INP_NOTHING ? include(inp, input, depth) : OST_SUCCESS;
 }
 
 static OstStatus read_data_line(OstInp *inp)
@@ -416,9 +427,7 @@ static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth)
         if (!ost_lines_take(lines, '*')) {
             OST_TRY(read_data_line(inp));
         } else if (*lines->next != '*') {
-            OstInpKeyword keyword;
-            OST_TRY(ost_inp_keyword(inp, &keyword));
-            OST_TRY(begin_block(inp, &keyword, depth));
+            OST_TRY(read_keyword(inp, depth));
         }
         OST_TRY(ost_lines_next(lines, &found));
     }

@@ -71,10 +71,11 @@ static OstStatus add_field(Nastran *nastran, const char *text, size_t length)
     return OST_SUCCESS;
 }
 
-/* Fields between commas; a last one that only names the continuation is the ninth, and those left out are blank. */
-static OstStatus free_fields(Nastran *nastran, const char *text, const char *end)
+/* Fields between commas, eight of a line, or four large ones; the one after them only names the continuation, and those
+ * left out are blank. */
+static OstStatus free_fields(Nastran *nastran, const char *text, const char *end, int count)
 {
-    for (int f = 0; f < 8; f++) {
+    for (int f = 0; f < count; f++) {
         const char *comma = memchr(text, ',', (size_t)(end - text));
         const char *stop = comma ? comma : end;
         OST_TRY(add_field(nastran, text, (size_t)(stop - text)));
@@ -113,7 +114,7 @@ static OstStatus read_fields(Nastran *nastran, const char *line, const char *end
     const char *comma = memchr(line, ',', (size_t)(end - line));
     const ptrdiff_t name = end - line < SMALL ? end - line : SMALL;
     if (comma)
-        return free_fields(nastran, comma + 1, end);
+        return free_fields(nastran, comma + 1, end, memchr(line, '*', (size_t)(comma - line)) ? 4 : 8);
     if (memchr(line, '\t', (size_t)(end - line)))
         return fields_after_tabs(nastran, line, end);
     return fixed_fields(nastran, line + name, end, memchr(line, '*', (size_t)name) ? LARGE : SMALL);
@@ -209,6 +210,7 @@ static const Card cards[] = {{"CTETRA", OST_CELL_TET4, OST_CELL_TET10, 0, {0}},
                              {"CHEXA20", OST_CELL_HEX8, OST_CELL_HEX20, 12, {16, 17, 18, 19, 12, 13, 14, 15}},
                              {"CPENTA", OST_CELL_WEDGE6, OST_CELL_WEDGE15, 9, {12, 13, 14, 9, 10, 11}},
                              {"CPYRAM", OST_CELL_PYRAMID5, OST_CELL_PYRAMID13, 0, {0}},
+                             {"CPYRA", OST_CELL_PYRAMID5, OST_CELL_PYRAMID13, 0, {0}}, /* OptiStruct's */
                              {"CTRIA3", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3, 0, {0}},
                              {"CTRIAR", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE3, 0, {0}},
                              {"CTRIA6", OST_CELL_TRIANGLE3, OST_CELL_TRIANGLE6, 0, {0}},
@@ -378,12 +380,24 @@ static OstStatus read_constraint(Nastran *nastran)
     return OST_SUCCESS;
 }
 
-static OstStatus end_card(Nastran *nastran)
+/* Counts an element that is not read, by the beginning of its name. */
+static void skip_element(Nastran *nastran)
 {
     static const struct {
-        const char *name;
+        const char *begins;
         int dimension;
-    } others[] = {{"CSHEAR", 2}, {"CBAR", 1}, {"CBEAM", 1}, {"CROD", 1}, {"CTUBE", 1}, {"CONROD", 1}};
+    } others[] = {{"CTET", 3},   {"CHEX", 3}, {"CPEN", 3},  {"CPYR", 3},   {"CIHEX", 3}, {"CIFHEX", 3},
+                  {"CIFPEN", 3}, {"CTRI", 2}, {"CQUAD", 2}, {"CSHEAR", 2}, {"CBAR", 1},  {"CBEAM", 1},
+                  {"CBEND", 1},  {"CROD", 1}, {"CTUBE", 1}, {"CONROD", 1}};
+    for (size_t o = 0; o < sizeof others / sizeof *others; o++)
+        if (strncmp(nastran->name, others[o].begins, strlen(others[o].begins)) == 0) {
+            ost_cells_skip(&nastran->cells, others[o].dimension, nastran->name);
+            return;
+        }
+}
+
+static OstStatus end_card(Nastran *nastran)
+{
     const char *name = nastran->name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);
@@ -398,9 +412,7 @@ static OstStatus end_card(Nastran *nastran)
         return read_constraints(nastran);
     if (strcmp(name, "SPC") == 0)
         return read_constraint(nastran);
-    for (size_t o = 0; o < sizeof others / sizeof *others; o++)
-        if (strcmp(name, others[o].name) == 0)
-            ost_cells_skip(&nastran->cells, others[o].dimension, name);
+    skip_element(nastran);
     if (strcmp(name, "RBE2") == 0 || strcmp(name, "RBE3") == 0)
         OST_TRY(read_rigid(nastran, name[3] == '3'));
     return ost_passed_take(nastran->cursor.ctx, ways, sizeof ways / sizeof *ways, name, &nastran->passed);
@@ -432,14 +444,27 @@ static OstStatus read_comment(Nastran *nastran, const char *line, const char *en
     return name[0] ? ost_cells_name(&nastran->cells, -1, property, name) : OST_SUCCESS;
 }
 
+/* Where the data of a line end: at a comment, which begins with $ outside quotes, without the blanks before it. */
+static const char *end_of_data(const char *line, const char *end)
+{
+    int quoted = 0;
+    const char *at = line;
+    for (; at < end && (quoted || *at != '$'); at++)
+        quoted ^= *at == '\'';
+    while (at > line && strchr(" \t", at[-1]))
+        at--;
+    return at;
+}
+
 static OstStatus include(Nastran *nastran, const char *line, const char *end);
 
 static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
 {
+    if (line < end && *line == '$')
+        return read_comment(nastran, line, end);
+    end = end_of_data(line, end);
     if (line == end)
         return OST_SUCCESS;
-    if (*line == '$')
-        return read_comment(nastran, line, end);
     if (end - line > 7 && strncasecmp(line, "INCLUDE", 7) == 0)
         return include(nastran, line, end);
     if (!strchr("+* ,\t", *line)) {
@@ -466,29 +491,40 @@ static OstStatus read_cards(Nastran *nastran, int *ended)
     return OST_SUCCESS;
 }
 
-/* The name of the file is in quotes, or ends with the line; it is relative to the file that it is in. */
-static void included_path(const OstMshCursor *cursor, const char *line, const char *end, char path[PATH_MAX])
+/* The name of a file is in quotes, perhaps over several lines, or ends with the line; it is relative to the file that
+ * it is in. */
+static void included_path(OstMshCursor *cursor, const char *line, const char *end, char path[PATH_MAX])
 {
     const char *name = line + 7, *slash = strrchr(cursor->path, '/');
-    while (name < end && strchr(" \t'\"", *name))
+    while (name < end && strchr(" \t", *name))
         name++;
-    while (end > name && strchr(" \t'\"", end[-1]))
-        end--;
+    const char quote = name < end && (*name == '\'' || *name == '"') ? *name++ : '\0';
     const int folder = slash && name < end && *name != '/' ? (int)(slash + 1 - cursor->path) : 0;
-    snprintf(path, PATH_MAX, "%.*s%.*s", folder, cursor->path, (int)(end - name < PATH_MAX ? end - name : 0), name);
+    int length = snprintf(path, PATH_MAX, "%.*s", folder, cursor->path);
+    while (length < PATH_MAX) {
+        const char *close = quote ? memchr(name, quote, (size_t)(end - name)) : end;
+        const ptrdiff_t more_of_it = (close ? close : end) - name;
+        length += snprintf(path + length, (size_t)(PATH_MAX - length), "%.*s",
+                           more_of_it < PATH_MAX ? (int)more_of_it : PATH_MAX, name);
+        if (close || cursor->next >= cursor->end)
+            return;
+        const OstMshText more = ost_msh_rest_of_line(cursor);
+        name = more.start;
+        end = more.start + more.length;
+    }
 }
 
 static OstStatus include(Nastran *nastran, const char *line, const char *end)
 {
     char path[PATH_MAX];
     int ended = 0;
-    const OstMshCursor outer = nastran->cursor;
     OstMshCursor inner;
     OST_TRY(end_card(nastran));
     nastran->name[0] = '\0';
     if (nastran->depth == MOST_INCLUDES)
         return OST_RAISE_MSH(&nastran->cursor, "files include each other more than %d deep", MOST_INCLUDES);
-    included_path(&outer, line, end, path);
+    included_path(&nastran->cursor, line, end, path);
+    const OstMshCursor outer = nastran->cursor;
     OST_TRY(ost_msh_open(outer.ctx, path, &inner));
     nastran->cursor = inner;
     nastran->depth++;

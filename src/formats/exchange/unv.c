@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/memory.h"
+#include "core/number_set.h"
 #include "formats/cells/cells.h"
 #include "formats/exchange/exchange.h"
 #include "formats/exchange/numbers.h"
@@ -7,9 +9,11 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* I-deas's universal files: data sets between lines of -1, the first line of each its number. Read are nodes (15, 781,
- * 2411), elements (780, 2412) and groups (2429 to 2477). */
+ * 2411), elements (780, 2412) and groups (2417 to 2477), and of coordinate systems (18, 2420) whether they are the
+ * global one. */
 
 enum { MOST_NUMBERS = 10, LONGEST_NAME = 80, OF_NODES = 7, OF_ELEMENTS = 8, MOST_NODES = 27 };
 
@@ -19,6 +23,9 @@ typedef struct Unv {
     OstGlobal number[MOST_NUMBERS]; /* of the present line */
     int numbers;
     int ended; /* was it the -1 that ends the data set? */
+    OstLocal other_count, used_count;
+    OstGlobal *other; /* coordinate systems that are not the global one */
+    OstGlobal *used;  /* by nodes */
 } Unv;
 
 /* Elements by their descriptor; `place` is where VTK has each node. */
@@ -127,11 +134,23 @@ static OstStatus read_reals(Unv *unv, OstMshText line, double x[3])
     return OST_SUCCESS;
 }
 
+/* Notes the system that a node states, the second number of its line. */
+static OstStatus use_system(Unv *unv)
+{
+    const OstGlobal system = unv->numbers > 1 ? unv->number[1] : 0;
+    if (unv->used_count > 0 && unv->used[unv->used_count - 1] == system)
+        return OST_SUCCESS;
+    OST_TRY(OST_GROW(unv->cursor.ctx, &unv->used, unv->used_count + 1));
+    unv->used[unv->used_count++] = system;
+    return OST_SUCCESS;
+}
+
 static OstStatus read_nodes(Unv *unv)
 {
     for (next_line(unv); !unv->ended; next_line(unv)) {
         double x[3];
         OST_TRY(want_numbers(unv, 1, "a node"));
+        OST_TRY(use_system(unv));
         const OstGlobal label = unv->number[0];
         OST_TRY(read_reals(unv, next_line(unv), x));
         OST_TRY(ost_cells_add_node(&unv->cells, label, x));
@@ -145,6 +164,7 @@ static OstStatus read_old_nodes(Unv *unv)
     for (OstMshText line = next_line(unv); !unv->ended; line = next_line(unv)) {
         double x[3];
         OST_TRY(want_numbers(unv, 4, "a node"));
+        OST_TRY(use_system(unv));
         const OstGlobal label = unv->number[0];
         const char *at = line.start, *end = line.start + line.length;
         for (int skipped = 0; skipped < 4; skipped++) {
@@ -156,6 +176,66 @@ static OstStatus read_old_nodes(Unv *unv)
         OST_TRY(read_reals(unv, (OstMshText){at, (int)(end - at)}, x));
         OST_TRY(ost_cells_add_node(&unv->cells, label, x));
     }
+    return OST_SUCCESS;
+}
+
+/* --- coordinate systems --- */
+
+static OstStatus add_system(Unv *unv, OstGlobal label, int is_global)
+{
+    if (is_global)
+        return OST_SUCCESS;
+    OST_TRY(OST_GROW(unv->cursor.ctx, &unv->other, unv->other_count + 1));
+    unv->other[unv->other_count++] = label;
+    return OST_SUCCESS;
+}
+
+/* The part and its name; then of each system label, type (0: Cartesian) and colour, its name, and four rows: its axes
+ * and its origin. */
+static OstStatus read_systems(Unv *unv)
+{
+    next_line(unv);
+    if (!unv->ended)
+        next_line(unv);
+    for (next_line(unv); !unv->ended; next_line(unv)) {
+        OST_TRY(want_numbers(unv, 2, "a coordinate system"));
+        const OstGlobal label = unv->number[0];
+        int is_global = unv->number[1] == 0;
+        next_line(unv);
+        for (int row = 0; row < 4; row++) {
+            double x[3];
+            OST_TRY(read_reals(unv, next_line(unv), x));
+            for (int d = 0; d < 3; d++)
+                is_global &= x[d] == (row == d ? 1.0 : 0.0);
+        }
+        OST_TRY(add_system(unv, label, is_global));
+    }
+    return OST_SUCCESS;
+}
+
+/* Old ones are only noted: label, type and more; a name; nine coordinates in two lines. */
+static OstStatus read_old_systems(Unv *unv)
+{
+    for (next_line(unv); !unv->ended; next_line(unv)) {
+        OST_TRY(want_numbers(unv, 2, "a coordinate system"));
+        OST_TRY(add_system(unv, unv->number[0], 0));
+        for (int skipped = 0; skipped < 3 && !unv->ended; skipped++)
+            next_line(unv);
+    }
+    return OST_SUCCESS;
+}
+
+/* They may stand before the nodes or behind them. */
+static OstStatus check_systems(Unv *unv)
+{
+    if (unv->other_count > 0)
+        qsort(unv->other, (size_t)unv->other_count, sizeof *unv->other, ost_compare_numbers);
+    for (OstLocal u = 0; u < unv->used_count; u++)
+        if (ost_numbers_find(unv->other_count, unv->other, unv->used[u]) >= 0)
+            return OST_RAISE(unv->cursor.ctx, OST_INVALID_INPUT,
+                             "%s: nodes in the coordinate system %" PRId64 ", which is not the global Cartesian one; "
+                             "systems are not read: write all nodes in the global one",
+                             unv->cursor.path, unv->used[u]);
     return OST_SUCCESS;
 }
 
@@ -217,14 +297,17 @@ static OstStatus put(Unv *unv, const char *name, OstGlobal type, OstGlobal label
     return ost_cells_put(&unv->cells, set, label);
 }
 
-/* Members of a group, as many to a line as fit: `each` numbers, the first the type and the second the label. */
+/* Members of a group, as many to a line as fit: `each` numbers, the first the type and the second the label. Where
+ * there should be no more, zeros may follow. */
 static OstStatus read_members(Unv *unv, const char *name, OstGlobal count, int each)
 {
     for (OstGlobal done = 0; done < count;) {
         next_line(unv);
         OST_TRY(want_numbers(unv, each, "a member of a group"));
-        for (int i = 0; i + each <= unv->numbers && done < count; i += each, done++)
+        for (int i = 0; i + each <= unv->numbers && done < count; i += each) {
             OST_TRY(put(unv, name, unv->number[i], unv->number[i + 1]));
+            done += unv->number[i] != 0;
+        }
     }
     return OST_SUCCESS;
 }
@@ -235,7 +318,7 @@ static OstStatus read_groups(Unv *unv, int each)
     for (next_line(unv); !unv->ended; next_line(unv)) {
         char name[LONGEST_NAME];
         OST_TRY(want_numbers(unv, each == 4 ? 8 : 7, "a group"));
-        const OstGlobal group = unv->number[0], count = unv->number[each == 4 ? 7 : 6];
+        const OstGlobal group = unv->number[0], count = unv->number[each == 4 ? 7 : unv->numbers - 1];
         const OstMshText line = next_line(unv);
         snprintf(name, sizeof name, "%.*s", line.length < LONGEST_NAME ? line.length : LONGEST_NAME - 1, line.start);
         if (!name[0])
@@ -255,10 +338,15 @@ static OstStatus read_data_set(Unv *unv, OstGlobal number)
     case 781:
     case 2411:
         return read_nodes(unv);
+    case 18:
+        return read_old_systems(unv);
+    case 2420:
+        return read_systems(unv);
     case 780:
         return read_elements(unv, 8);
     case 2412:
         return read_elements(unv, 6);
+    case 2417:
     case 2429:
     case 2430:
     case 2432:
@@ -295,6 +383,8 @@ OstStatus ost_unv_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
     OstStatus status = ost_cells_open(ctx, path, &unv.cells);
     OST_THEN(ost_msh_open(ctx, path, &unv.cursor));
     OST_THEN(read_all(&unv));
+    OST_THEN(check_systems(&unv));
+    OST_FREE(unv.other, unv.used);
     ost_msh_close(&unv.cursor);
     OST_THEN(ost_cells_finish(&unv.cells, chunk));
     ost_cells_close(&unv.cells);

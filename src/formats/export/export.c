@@ -44,9 +44,25 @@ static OstStatus write_alone(const OstMesh *mesh, const char *path, OstStatus (*
     return ost_agree(mesh->ctx, status);
 }
 
+/* In .msh and .inp files a name ends with its second double quote. */
+static OstStatus check_quotes(const OstMesh *mesh, const char *path)
+{
+    const char *name = NULL;
+    for (int r = 0; r < mesh->regions.count; r++)
+        name = strchr(mesh->regions.name[r], '"') ? mesh->regions.name[r] : name;
+    for (int b = 0; b < mesh->boundary_count; b++)
+        name = strchr(mesh->boundaries[b].name, '"') ? mesh->boundaries[b].name : name;
+    if (!name || (!ends_with(path, ".msh") && !ends_with(path, ".inp")))
+        return OST_SUCCESS;
+    return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                     "%s: cannot hold the name '%s', which has a double quote; write a .vtkhdf or .vtu file", path,
+                     name);
+}
+
 OstStatus ost_mesh_export(const OstMesh *mesh, const char *path)
 {
     OST_TRY(ost_mesh_export_check(mesh->ctx, path));
+    OST_TRY(check_quotes(mesh, path));
     if (mesh->tet_axes && ends_with(path, ".inp"))
         ost_warn(mesh->ctx, "%s: the material axes of the tets are left out; a .vtkhdf, .vtu or .msh file holds them",
                  path);

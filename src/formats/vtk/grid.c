@@ -23,6 +23,9 @@ static const char *const region_names[] = {
     "mat_id", "subdomain_id", "MeshDomain", "ObjectId"};
 enum { REGION_NAMES = sizeof region_names / sizeof *region_names };
 
+const char ost_vtk_ghosts[] = "vtkGhostType";
+enum { VTK_DUPLICATE_CELL = 1, VTK_HIDDEN_CELL = 32 };
+
 /* What VTK's cell types are here. */
 enum { VTK_TYPES = 82 };
 typedef struct CellType {
@@ -95,7 +98,7 @@ int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlo
     for (int n = 0; n < REGION_NAMES; n++)
         if (strcasecmp(region_names[n], name) == 0)
             return 1;
-    if (ost_vtk_numbers_points(name) && components == 1)
+    if ((ost_vtk_numbers_points(name) || strcmp(name, ost_vtk_ghosts) == 0) && components == 1)
         return 1;
     return grid->by_meshio && is_whole && components == 1;
 }
@@ -243,6 +246,38 @@ static OstGlobal group_of(const OstVtkArray *region, int is_of_sets, OstGlobal c
     return (OstGlobal)region->values[cell];
 }
 
+static const OstVtkArray *ghost_array(const OstVtkGrid *grid)
+{
+    for (int a = 0; a < grid->array_count; a++)
+        if (!grid->array[a].on_points && grid->array[a].components == 1 && grid->array[a].tuples == grid->cells &&
+            strcmp(grid->array[a].name, ost_vtk_ghosts) == 0)
+            return &grid->array[a];
+    return NULL;
+}
+
+/* Duplicates are another piece's; hidden cells are none. */
+static int is_ghost(const OstVtkArray *ghosts, OstGlobal cell)
+{
+    const double mark = ghosts ? ghosts->values[cell] : 0.0;
+    return mark > 0.0 && mark < 256.0 && ((int)mark & (VTK_DUPLICATE_CELL | VTK_HIDDEN_CELL)) != 0;
+}
+
+static OstStatus add_cells(const OstVtkGrid *grid, const OstVtkArray *region, int is_of_sets, OstCells *cells)
+{
+    const OstVtkArray *ghosts = ghost_array(grid);
+    OstGlobal left_out = 0;
+    for (OstGlobal c = 0; c < grid->cells; c++) {
+        const int ghost = is_ghost(ghosts, c);
+        left_out += ghost;
+        if (!ghost)
+            OST_TRY(add_cell(grid, c, group_of(region, is_of_sets, c), cells));
+    }
+    if (left_out > 0)
+        ost_warn(grid->ctx, "%s: cells left out that vtkGhostType marks as hidden or as another piece's: %" PRId64,
+                 grid->path, left_out);
+    return OST_SUCCESS;
+}
+
 static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
 {
     char sign;
@@ -257,8 +292,7 @@ static OstStatus add_all(const OstVtkGrid *grid, OstCells *cells)
     for (OstGlobal p = 0; p < grid->points; p++)
         if (!grid->same || grid->same[p] == p)
             OST_TRY(ost_cells_add_node(cells, p + 1, grid->coordinates + 3 * p));
-    for (OstGlobal c = 0; c < grid->cells; c++)
-        OST_TRY(add_cell(grid, c, group_of(sets ? sets : region, sets != NULL, c), cells));
+    OST_TRY(add_cells(grid, sets ? sets : region, sets != NULL, cells));
     return ost_vtk_take_point_sets(grid, cells);
 }
 

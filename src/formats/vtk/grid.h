@@ -64,6 +64,9 @@ int ost_vtk_numbers_points(const char *name);
 /* Local. Names of cell arrays that may say which region a cell is in, from 0; NULL after the last. */
 const char *ost_vtk_region_name(int number);
 
+/* Name of the cell array in which VTK marks cells that are hidden, or another piece's. */
+extern const char ost_vtk_ghosts[];
+
 /* Local. Is an array of this name kept? Adds one, with its values, which the grid then owns. */
 int ost_vtk_wants(const OstVtkGrid *grid, const char *name, int is_whole, OstGlobal components);
 OstStatus ost_vtk_add_array(OstVtkGrid *grid, const char *name, int on_points, int components, OstGlobal tuples,

@@ -134,6 +134,8 @@ static OstStatus read_all(const OstHdf5 *h5, OstVtkGrid *grid)
         ost_vtkhdf_note_fields(h5, grid->field);
     for (int n = 0; ost_vtk_region_name(n) && !grid->wanted; n++)
         OST_THEN(take_array(h5, grid, 0, ost_vtk_region_name(n)));
+    if (!grid->wanted)
+        OST_THEN(take_array(h5, grid, 0, ost_vtk_ghosts));
     for (int n = 1; ost_point_labels[n] && !grid->wanted && pieces.count > 1; n++)
         OST_THEN(take_array(h5, grid, 1, ost_point_labels[n]));
     OST_FREE(pieces.points, pieces.cells, pieces.connections);
@@ -177,6 +179,7 @@ static OstStatus look_at_types(OstContext *ctx, const char *path, int *others)
         status = ost_hdf5_shape(&h5, "/VTKHDF/Types", &cells, &components);
         OST_THEN(OST_NEW(ctx, &type, cells));
         OST_THEN(ost_hdf5_read_rows(&h5, "/VTKHDF/Types", H5T_NATIVE_UCHAR, 1, cells, 0, cells, type));
+        *others = ost_hdf5_has(&h5, "/VTKHDF/CellData/vtkGhostType");
         for (OstGlobal c = 0; c < cells && status == OST_SUCCESS && !*others; c++)
             *others = type[c] != VTK_TETRA && type[c] != VTK_QUADRATIC_TETRA;
     }

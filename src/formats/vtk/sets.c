@@ -76,7 +76,7 @@ const OstVtkArray *ost_vtk_sets(const OstVtkGrid *grid, int on_points, char *sig
     for (int a = grid->by_meshio ? grid->array_count - 1 : -1; a >= 0; a--) {
         const OstVtkArray *array = &grid->array[a];
         if (array->on_points == on_points && array->components == 1 && array->tuples == tuples &&
-            is_of_sets(array, sign))
+            strcmp(array->name, ost_vtk_ghosts) != 0 && is_of_sets(array, sign))
             return array;
     }
     return NULL;
