@@ -8,11 +8,19 @@
  * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
-/* Collective. Which nodes of a selection other supports hold too, along x, y and z (bits 1, 2, 4): those at an edge of
- * its faces behind which faces of the surface are held that are not selected. What acts there is borne by both. `held`
- * and `*shared` (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
+/* Collective. Which nodes of a selection other supports hold too, along x, y and z: those at an edge of its faces
+ * behind which faces of the surface are held that are not selected. What acts there is borne by both (bits 1, 2, 4),
+ * or, where no support holds the selection's own faces along it, by the others alone (bits 8, 16, 32). `held` and
+ * `*shared` (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared);
+enum { OST_BORNE_BY_OTHERS = 3 };
+
+/* The share of what acts along x, y or z on such a node that is the selection's. */
+static inline double ost_share_borne(unsigned shared, int i)
+{
+    return shared >> (OST_BORNE_BY_OTHERS + i) & 1U ? 0.0 : shared >> i & 1U ? 0.5 : 1.0;
+}
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */
 int ost_selection_names(const OstSelection *selection, const char *boundary);

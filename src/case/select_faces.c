@@ -157,23 +157,32 @@ done:
 
 /* --- nodes that two supports hold --- */
 
-/* Of nodes, beside bits for x, y and z. */
-enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7 };
+/* Of nodes, beside bits for x, y and z: what others hold, and, five bits up, what the selection itself does. */
+enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7, OWN = 5 };
 
-/* Faces between selected nodes are those of the selection. Others between nodes `in` one support (NULL: not asked)
- * leave bits at their nodes for what all of these are held along. */
+/* Along what are all nodes of a face held? A foundation gives a quadratic face's vertices nothing. */
+static unsigned held_along(int nodes, const OstLocal *node, const unsigned char *in, const unsigned char *held)
+{
+    unsigned along = ALONG;
+    for (int k = 0; k < nodes; k++)
+        along &= !in[node[k]] ? 0U : nodes == 3 || k >= 3 ? held[node[k]] : ALONG;
+    return along;
+}
+
+/* Faces between selected nodes are those of the selection. All between nodes `in` one support (NULL: not asked) leave
+ * bits at their nodes for what they are held along. */
 static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held,
                           unsigned char *flags)
 {
     for (OstLocal f = 0; f < surface->count; f++) {
-        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
-        unsigned along = ALONG, selected = SELECTED;
-        for (int k = 0; k < surface->nodes_per_face; k++) {
-            along &= in && in[node[k]] ? held[node[k]] : 0U;
+        const int nodes = surface->nodes_per_face;
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)nodes;
+        const unsigned along = in ? held_along(nodes, node, in, held) : 0U;
+        unsigned selected = SELECTED;
+        for (int k = 0; k < nodes; k++)
             selected &= flags[node[k]];
-        }
-        for (int k = 0; k < surface->nodes_per_face; k++)
-            flags[node[k]] |= (unsigned char)(selected ? HAS_FACE : along);
+        for (int k = 0; k < nodes; k++)
+            flags[node[k]] |= (unsigned char)(selected ? HAS_FACE | along << OWN : along);
     }
 }
 
@@ -206,6 +215,7 @@ OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigne
                             const OstLocal *nodes, unsigned char **shared)
 {
     const OstSurface *surface;
+    unsigned links = 0; /* what they hold is not known: taken for all */
     OST_TRY(ost_mesh_surface(mesh, &surface));
     OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count));
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
@@ -213,12 +223,17 @@ OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigne
     if (status == OST_SUCCESS)
         look_at_faces(surface, NULL, held, *shared);
     for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
-        if (!ost_constraint_links(&c->constraints[k]))
+        if (ost_constraint_links(&c->constraints[k]))
+            links = ALONG;
+        else
             status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, *shared);
     for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
         status = look_at_support(c, mesh, surface, &c->springs[k].on, held, *shared);
-    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
-        (*shared)[n] = (*shared)[n] >= (SELECTED | HAS_FACE) ? (*shared)[n] & ALONG & held[n] : 0;
+    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++) {
+        const unsigned flags = (*shared)[n], own = flags >> OWN | links;
+        const unsigned others = (flags & SELECTED) && (flags & HAS_FACE) ? flags & ALONG & held[n] : 0U;
+        (*shared)[n] = (unsigned char)((others & own) | (others & ~own) << OST_BORNE_BY_OTHERS);
+    }
     OST_THEN(ost_halo_import(mesh->halo, 1, *shared));
     return status;
 }

@@ -50,7 +50,7 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
 }
 
 /* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. Of components
- * that are `shared` (ost_select_shared) others bear half. */
+ * that are `shared` (ost_select_shared) others bear half, or all. */
 static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, unsigned shared, double sum[3])
 {
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
@@ -59,7 +59,7 @@ static void add_reaction(const OstResult *result, const OstWatch *watch, OstLoca
     double arm[3], force[3], moment[3];
     for (int i = 0; i < 3; i++) {
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
-        force[i] = (shared >> i & 1 ? 0.5 : 1.0) * result->reaction[3 * (size_t)node + (size_t)i];
+        force[i] = ost_share_borne(shared, i) * result->reaction[3 * (size_t)node + (size_t)i];
     }
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
@@ -81,14 +81,14 @@ static void take_adjoint(const OstScene *scene, const OstResult *result, const O
 /* The size of the forces, or moments, that a selection's reaction is the sum of, along what is watched, and that of all
  * the body's: below a rounding's share of it the first is none. *terms: the size in any direction. */
 static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal count, const OstLocal *nodes,
-                      double *terms, int *yes)
+                      const unsigned char *shared, double *terms, int *yes)
 {
     const OstLocal owned = result->mesh->owned_nodes;
     double sums[3] = {0.0};
     for (OstLocal n = 0; n < count; n++) {
         double force[3] = {0.0};
         if (nodes[n] < owned)
-            add_reaction(result, watch, nodes[n], 0, force);
+            add_reaction(result, watch, nodes[n], shared[nodes[n]], force);
         sums[0] += fabs(component_of(force, watch->component));
         sums[2] += ost_norm3(force);
     }
@@ -116,7 +116,7 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes)
             add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
-    OST_THEN(acts(result, watch, count, nodes, &watched->terms, &does_act));
+    OST_THEN(acts(result, watch, count, nodes, shared, &watched->terms, &does_act));
     OST_FREE(shared);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));

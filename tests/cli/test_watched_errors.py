@@ -190,6 +190,7 @@ watch:
   along: {reaction: {boundary: xmin}, component: x}
   inner: {reaction: {boundary: ymin}, about: [0, 0, 0], component: x}
   outer: {reaction: {boundary: xmin}, about: [0, 0, 0], component: x}
+  beside: {reaction: {boundary: ymin}, component: x}
 """
 for ranks in fewer((1, 2)):
     for order, asked in (1, ""), (2, ""), (2, "accuracy: {relative_error: 0.1, of: end}\n"):
@@ -200,7 +201,17 @@ for ranks in fewer((1, 2)):
         check(abs(moment - 0.25) < 1e-3, f"moments: {found}")
         check(1 < abs(end["error"] / (1.35 - end["value"])) < (4 if order == 1 else 2.5), f"a common edge, order {order}: {end}")
         check(found["along"]["error"] == 0, f"another direction: {found['along']}")
+        check(found["beside"]["value"] == found["beside"]["error"] == 0, f"what the other alone holds: {found['beside']}")
         check(not asked or (end["error"] < 0.1 * end["value"] and "its error added" not in done.output), done.output)
+
+# A foundation beside a held face: each has half of what acts at their edge, and both bear the weight.
+found, _ = watched(HALF[:HALF.index("constraints")] + """constraints: [{on: {boundary: ymin}, displacement: [0, 0, 0]}]
+springs: [{on: {boundary: xmax}, foundation: 1e5}]
+loads: [{on: {boundary: zmax}, total_force: [0, 0, -1]}]
+large_rotation: off
+watch: {held: {reaction: {boundary: ymin}, component: z}, founded: {reaction: {boundary: xmax}, component: z}}
+""", 2, "2, 1, 1")
+check(abs(found["held"]["value"] + found["founded"]["value"] - 1) < 1e-6, f"beside a foundation: {found}")
 
 # Means in a layer up to 1000 times stiffer, which has little of the energy: by few steps they were other ones on two ranks.
 brick_mesh(os.path.join(folder, "layers.msh"), [("b", (0, 0, 0), (1, 1, 1), (3, 3, 3), ("soft", "stiff", "soft"))])
