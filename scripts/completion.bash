@@ -1,5 +1,5 @@
 
-# The words that may stand next: commands, then options, case files, and the files that options ask for.
+# The words that may stand next: commands, then options, case files, and the files that options write.
 _orthostat() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command= i
     COMPREPLY=()
@@ -16,7 +16,9 @@ _orthostat() {
     fi
     local options=${_orthostat_options[$command]-}
     if [ "$word" = = ]; then # --json=, which readline takes apart
-        before='=' word=
+        word=
+    elif [ "$before" = = ]; then
+        before=${COMP_WORDS[COMP_CWORD - 2]}
     fi
     if [[ $word == -?* ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
@@ -24,8 +26,10 @@ _orthostat() {
         return
     fi
     compopt -o filenames 2>/dev/null
-    if [ "$before" = = ] || [[ " $options " == *" $before= "* ]]; then
-        mapfile -t COMPREPLY < <(compgen -f -- "$word")
+    if [[ " ${_orthostat_values[$command]-} " == *" $before "* ]]; then
+        if [[ " ${_orthostat_files[$command]-} " == *" $before "* ]]; then # none of them reads a case
+            mapfile -t COMPREPLY < <(compgen -f -X '*.y*ml' -- "$word")
+        fi
         return
     fi
     case ${_orthostat_takes[$command]-} in

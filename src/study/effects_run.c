@@ -180,10 +180,14 @@ done:
     return status;
 }
 
+/* The largest; one that has no number counts where none of the others is above the accuracy asked for. */
 double ost_effect_change(const OstEffectStudy *study, const OstEffectRun *run)
 {
     double most = fmax(run->pose, run->energy);
-    for (int w = 0; w < study->c->watch_count; w++)
-        most = fmax(most, run->watch[w]);
-    return most;
+    int endless = 0;
+    for (int w = 0; w < study->c->watch_count; w++) {
+        endless |= isinf(run->watch[w]);
+        most = isinf(run->watch[w]) ? most : fmax(most, run->watch[w]);
+    }
+    return endless && !(most > study->c->relative_error) ? INFINITY : most;
 }

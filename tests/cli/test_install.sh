@@ -134,4 +134,7 @@ expect "beam.yaml beam.yml " orthostat solve b
 expect "beam.yaml beam.yml deeper " orthostat explain ""
 expect "beam.vtkhdf " orthostat solve --output beam.v
 expect "beam.vtkhdf " orthostat solve --output = beam.v
+expect "beam.vtkhdf deeper " orthostat solve -o ""
+expect "beam.vtkhdf deeper " orthostat solve --json =
+expect " " orthostat solve --case b
 expect "check " scripts/orthostat -n 4 ch

@@ -45,11 +45,11 @@ for text, words in (("*SYSTEM\n1, 0, 0\n" + FOUR + ONE, "*SYSTEM"), (FOUR + "*NG
 # lines may lie in files of their own.
 write(folder, "nodes.txt", "3, 0, 1, 0\n4, 0, 0, 1\n")
 write(folder, "tets.txt", "1, 1, 2, 3, 4\n")
-SHELL = "*ELEMENT, TYPE=S3, ELSET=SHELL\n2, 1, 2, 3\n*NSET, NSET=shell\n1, 2, 3\n"
+SHELL = "*ELEMENT, TYPE=S3, ELSET=SHELL\n2, 1, 2, 3\n*NSET, NSET=shell\n1, 2, 3, 1\n*NSET, NSET=tip\n4, 4\n"
 held = inspect(write(folder, "mark.inp", "\ufeff*NODE\n1, 0, 0, 0\n2, 1.D0, 0, 0\n*NODE, INPUT=nodes.txt\n"
                      "*ELEMENT, TYPE=C3D4, ELSET=E, INPUT=tets.txt\n*NSET, NSET=E, ELSET=e\n" + SHELL))
 check(held["tets"] == 1 and {(b["name"], b["of"], b["count"]) for b in held["boundaries"]} ==
-      {("E", "faces", 4), ("SHELL", "faces", 1), ("shell", "faces", 1)}, f"{held}")
+      {("E", "faces", 4), ("SHELL", "faces", 1), ("shell", "faces", 1), ("tip", "points", 1)}, f"{held}")
 write(folder, "nodes.bdf", "GRID,1,,0.,0.,0. $ the first\nGRID,2,,1.,0.,0.\nGRID*,3,,0.,1.\n*,0.\n   $ more\nGRID    4               0.      0.      1.      $ up\n")
 held = inspect(write(folder, "included.bdf", "BEGIN BULK\nCORD2R,1,,10.,,,10.,,1.\n,11.\nGRDSET,,1\nINCLUDE 'nodes\n.bdf' $ over two lines\nCTETRA,1,7,1,2,3,4\nENDDATA\n"))
 check(held["low"] == [10, 0, 0] and held["high"] == [11, 1, 1], f"{held}")

@@ -190,6 +190,7 @@ watch:
   along: {reaction: {boundary: xmin}, component: x}
   inner: {reaction: {boundary: ymin}, about: [0, 0, 0], component: x}
   outer: {reaction: {boundary: xmin}, about: [0, 0, 0], component: x}
+  beside: {reaction: {boundary: ymin}, component: x}
 """
 for ranks in fewer((1, 2)):
     for order, asked in (1, ""), (2, ""), (2, "accuracy: {relative_error: 0.1, of: end}\n"):
@@ -200,6 +201,7 @@ for ranks in fewer((1, 2)):
         check(abs(moment - 0.25) < 1e-3, f"moments: {found}")
         check(1 < abs(end["error"] / (1.35 - end["value"])) < (4 if order == 1 else 2.5), f"a common edge, order {order}: {end}")
         check(found["along"]["error"] == 0, f"another direction: {found['along']}")
+        check(found["beside"]["value"] == found["beside"]["error"] == 0, f"what the other alone holds: {found['beside']}")
         check(not asked or (end["error"] < 0.1 * end["value"] and "its error added" not in done.output), done.output)
 
 # What others alone hold along a direction, and a spring where a constraint holds, is not counted: three planes of symmetry, each of

@@ -271,13 +271,15 @@ static void leave_out_lines(OstCells *cells, int quadratic)
         ost_cells_skip(cells, 1, "a line of another order than the tets'");
 }
 
-/* Faces first: of names that are given twice, theirs stay. */
+/* Each item once. Faces first: of names that are given twice, theirs stay. */
 OstStatus ost_cells_make_boundaries(OstCells *cells, OstCellKind tets)
 {
     const int quadratic = tets == OST_CELL_TET10;
     const OstCellKind kind[3] = {OST_CELL_POINT, quadratic ? OST_CELL_LINE3 : OST_CELL_LINE2,
                                  quadratic ? OST_CELL_TRIANGLE6 : OST_CELL_TRIANGLE3};
     leave_out_lines(cells, quadratic);
+    for (int s = 0; s < cells->set_count; s++)
+        ost_cells_keep_once(cells, s);
     OST_TRY(ost_cells_make_faces(cells, tets));
     OST_TRY(OST_NEW(cells->ctx, &cells->chunk->boundaries, 0));
     for (int dimension = 2; dimension >= 0; dimension--) {
