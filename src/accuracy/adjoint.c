@@ -313,7 +313,7 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OstSolveReport report;
     double *g = NULL, *pressure = NULL;
     OstStatus status = OST_NEW(problem->ctx, &g, space->owned);
-    OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
+    OST_THEN(OST_NEW(problem->ctx, &pressure, ost_problem_pressure_room(problem)));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(adjoint_volume(problem, wanted, g));
     OST_TRY_DONE(adjoint_load(search, interest, wanted->t, wanted->u));

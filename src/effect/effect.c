@@ -141,8 +141,6 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "the case says so: element: {mixed: off}";
     if (f->large_rotation == 2 && f->classical && !f->free_body)
         return "formulation: classical uses the mean dilatation";
-    if (is_solved_linearly(f))
-        return "rigid, tied or periodic faces and moved distributing couplings use the mean dilatation";
     return NULL;
 }
 
@@ -162,8 +160,6 @@ static void mixed(const OstEffectFacts *f, OstEffectState *state)
         on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
            "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
            f->nearly_incompressible, f->materials);
-    if (!why)
-        except_linear(f, state);
 }
 
 static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)

@@ -112,6 +112,11 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
 void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
                              OstProblem *state);
 
+/* Local. The room for pressures that are solved for, once there is a stiffness: pressures->count or, where nodes follow
+ * others, what the coupling has more of other ranks. The owned come first in both; ost_pressure_complete sets the
+ * ghosts that tets ask for. */
+size_t ost_problem_pressure_room(const OstProblem *problem);
+
 /* Local. From now on the problem's own forces, energies and stiffness are those with these pressures of its tets (NULL:
  * 0), which the caller keeps. */
 void ost_problem_take_pressure(OstProblem *problem, const double *of_tets);

@@ -48,7 +48,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
     if (problem->pressures) {
         OST_THEN(OST_NEW(ctx, &linear->volume, problem->pressures->owned));
-        OST_THEN(OST_NEW(ctx, &linear->pressure, problem->pressures->count));
+        OST_THEN(OST_NEW(ctx, &linear->pressure, ost_problem_pressure_room(problem)));
     }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));

@@ -49,6 +49,12 @@ void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, O
     state->field = field;
 }
 
+size_t ost_problem_pressure_room(const OstProblem *problem)
+{
+    const OstLocal solved_for = problem->coupling ? problem->coupling->columns : 0;
+    return (size_t)(problem->pressures->count > solved_for ? problem->pressures->count : solved_for);
+}
+
 /* The problem's own copy of its field, to be changed. */
 static OstMaterialField *own_field(OstProblem *problem)
 {
