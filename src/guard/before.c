@@ -168,20 +168,19 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
  * free to move: its changes of volume, summed, are then none either. */
 enum { VOLUME, VOLUME_SIZE, FORCE_SIZE, FORCE, VOLUME_SUMS };
 
-static OstStatus add_uniform_pressure(const OstCoupling *coupling, const double *g, double sums[VOLUME_SUMS])
+static OstStatus add_uniform_pressure(const OstProblem *problem, const double *g, double sums[VOLUME_SUMS])
 {
+    const OstCoupling *coupling = problem->coupling;
     double *pressure = NULL, *force = NULL;
     OstStatus status = OST_NEW(coupling->ctx, &pressure, coupling->columns);
     OST_THEN(OST_NEW(coupling->ctx, &force, 3 * (size_t)coupling->unknowns));
     OST_TRY_DONE(ost_agree(coupling->ctx, status));
+    ost_problem_uniform_pressure(problem, pressure);
     for (OstLocal i = 0; i < coupling->rows; i++) {
-        if (coupling->looseness[i] > 0.0)
-            continue;
-        pressure[i] = 1.0;
-        sums[VOLUME] += g[i];
-        sums[VOLUME_SIZE] += fabs(g[i]);
+        sums[VOLUME] += pressure[i] * g[i];
+        sums[VOLUME_SIZE] += pressure[i] * fabs(g[i]);
         for (OstLocal k = 3 * coupling->row_start[i]; k < 3 * coupling->row_start[i + 1]; k++)
-            sums[FORCE_SIZE] += fabs(coupling->value[k]);
+            sums[FORCE_SIZE] += pressure[i] * fabs(coupling->value[k]);
     }
     OST_TRY_DONE(ost_coupling_transpose(coupling, pressure, force));
     for (OstLocal k = 0; k < 3 * coupling->unknowns; k++)
@@ -195,8 +194,9 @@ done:
 OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
+    const OstLinks *links = problem->supports->links;
     double sums[VOLUME_SUMS] = {0.0};
-    OST_TRY(add_uniform_pressure(problem->coupling, g, sums));
+    OST_TRY(add_uniform_pressure(problem, g, sums));
     OST_TRY(ost_sum(ctx, VOLUME_SUMS, sums));
     *enclosed = sums[FORCE_SIZE] > 0.0 && sums[FORCE] <= 1e-10 * sums[FORCE_SIZE];
     if (!*enclosed || fabs(sums[VOLUME]) <= 1e-10 * sums[VOLUME_SIZE])
@@ -205,8 +205,10 @@ OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *encl
         ctx,
         OST_RAISE(ctx, OST_INVALID_INPUT,
                   "%s: the body is incompressible (nu = 1/2) and held all around, and what is prescribed changes its "
-                  "volume: leave a part of its surface free, or set nu = 0.4999",
-                  ost_problem_name(problem)),
+                  "volume: %s, or set nu = 0.4999",
+                  ost_problem_name(problem),
+                  links && links->periodic ? "let the strain of the periodic cell have xx + yy + zz = 0"
+                                           : "leave a part of its surface free"),
         before);
 }
 

@@ -112,6 +112,9 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
 void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
                              OstProblem *state);
 
+/* Local. The owned pressures of one stress m p, of the size 1, in all incompressible material; 0 in other. */
+void ost_problem_uniform_pressure(const OstProblem *problem, double *pressure);
+
 /* Local. The room for pressures that are solved for, once there is a stiffness: pressures->count or, where nodes follow
  * others, what the coupling has more of other ranks. The owned come first in both; ost_pressure_complete sets the
  * ghosts that tets ask for. */

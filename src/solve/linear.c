@@ -109,24 +109,26 @@ static int begins_at_start(const OstAnalysis *analysis)
     return !analysis->problem->pressures && take_start(analysis);
 }
 
-/* Takes the mean off the pressures of incompressible material, which nothing determines. */
-static OstStatus centre_pressure(const OstCoupling *coupling, double *pressure)
+/* Takes the mean off the stress that the pressures of incompressible material are: nothing determines it. */
+static OstStatus centre_pressure(const OstProblem *problem, double *pressure)
 {
-    double *mass = NULL, sums[2] = {0.0};
-    OST_TRY(
-        ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &mass, (size_t)coupling->columns + (size_t)coupling->rows)));
-    double *ones = mass + coupling->rows;
-    for (OstLocal i = 0; i < coupling->rows; i++)
-        ones[i] = coupling->looseness[i] == 0.0;
-    OstStatus status = ost_coupling_mass(coupling, ones, mass);
-    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++) {
-        sums[0] += ones[i] * mass[i];
+    const OstCoupling *coupling = problem->coupling;
+    const size_t rows = (size_t)coupling->rows;
+    double *uniform = NULL, sums[2] = {0.0};
+    OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &uniform, 2 * rows + (size_t)coupling->columns)));
+    double *mass = uniform + rows, *size = mass + rows;
+    ost_problem_uniform_pressure(problem, uniform);
+    for (size_t i = 0; i < rows; i++)
+        size[i] = uniform[i] > 0.0 ? 1.0 / uniform[i] : 0.0;
+    OstStatus status = ost_coupling_mass(coupling, size, mass);
+    for (size_t i = 0; i < rows && status == OST_SUCCESS; i++) {
+        sums[0] += uniform[i] * mass[i];
         sums[1] += pressure[i] * mass[i];
     }
     OST_THEN(ost_sum(coupling->ctx, 2, sums));
-    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++)
-        pressure[i] -= ones[i] * sums[1] / sums[0];
-    OST_FREE(mass);
+    for (size_t i = 0; i < rows && status == OST_SUCCESS; i++)
+        pressure[i] -= uniform[i] * sums[1] / sums[0];
+    OST_FREE(uniform);
     return status;
 }
 
@@ -140,7 +142,7 @@ static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *re
     const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
     const OstStatus solved = ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
     if (linear->enclosed)
-        OST_TRY(centre_pressure(saddle.coupling, linear->pressure));
+        OST_TRY(centre_pressure(analysis->problem, linear->pressure));
     return solved;
 }
 
@@ -286,7 +288,7 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
 static OstStatus drive(OstAnalysis *analysis)
 {
     OstLinear *linear = analysis->work;
-    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs));
+    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs, linear->volume));
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs)));
     return ost_analysis_take_loading(analysis);
 }

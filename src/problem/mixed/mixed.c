@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/small.h"
 #include "problem/problem.h"
 
 #include <string.h>
@@ -47,6 +48,16 @@ void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, O
     field->pressure = of_tets;
     *state = *problem;
     state->field = field;
+}
+
+void ost_problem_uniform_pressure(const OstProblem *problem, double *pressure)
+{
+    const OstPressureSpace *space = problem->pressures;
+    for (OstLocal i = 0; i < space->owned; i++) {
+        const int32_t region = space->region[i];
+        const double looseness = problem->field->mixed.looseness[region];
+        pressure[i] = looseness == 0.0 ? 1.0 / ost_norm3(ost_field_stiff_mode(problem->field, region)) : 0.0;
+    }
 }
 
 size_t ost_problem_pressure_room(const OstProblem *problem)
