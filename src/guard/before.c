@@ -164,42 +164,29 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
-/* The forces of a uniform pressure on all incompressible material are none at any free node, if no surface of it is
- * free to move: its changes of volume, summed, are then none either. */
-enum { VOLUME, VOLUME_SIZE, FORCE_SIZE, FORCE, VOLUME_SUMS };
-
-static OstStatus add_uniform_pressure(const OstProblem *problem, const double *g, double sums[VOLUME_SUMS])
+/* The changes of volume that a uniform pressure of all incompressible material works on, and their sizes. */
+static OstStatus sum_volume(const OstProblem *problem, const double *g, double sums[2])
 {
-    const OstCoupling *coupling = problem->coupling;
-    double *pressure = NULL, *force = NULL;
-    OstStatus status = OST_NEW(coupling->ctx, &pressure, coupling->columns);
-    OST_THEN(OST_NEW(coupling->ctx, &force, 3 * (size_t)coupling->unknowns));
-    OST_TRY_DONE(ost_agree(coupling->ctx, status));
-    ost_problem_uniform_pressure(problem, pressure);
-    for (OstLocal i = 0; i < coupling->rows; i++) {
-        sums[VOLUME] += pressure[i] * g[i];
-        sums[VOLUME_SIZE] += pressure[i] * fabs(g[i]);
-        for (OstLocal k = 3 * coupling->row_start[i]; k < 3 * coupling->row_start[i + 1]; k++)
-            sums[FORCE_SIZE] += pressure[i] * fabs(coupling->value[k]);
+    double *uniform = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &uniform, problem->pressures->owned)));
+    ost_problem_uniform_pressure(problem, uniform);
+    for (OstLocal i = 0; i < problem->pressures->owned; i++) {
+        sums[0] += uniform[i] * g[i];
+        sums[1] += uniform[i] * fabs(g[i]);
     }
-    OST_TRY_DONE(ost_coupling_transpose(coupling, pressure, force));
-    for (OstLocal k = 0; k < 3 * coupling->unknowns; k++)
-        sums[FORCE] += fabs(force[k]);
-done:
-    OST_FREE(pressure);
-    OST_FREE(force);
-    return status;
+    OST_FREE(uniform);
+    return ost_sum(problem->ctx, 2, sums);
 }
 
 OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
     const OstLinks *links = problem->supports->links;
-    double sums[VOLUME_SUMS] = {0.0};
-    OST_TRY(add_uniform_pressure(problem, g, sums));
-    OST_TRY(ost_sum(ctx, VOLUME_SUMS, sums));
-    *enclosed = sums[FORCE_SIZE] > 0.0 && sums[FORCE] <= 1e-10 * sums[FORCE_SIZE];
-    if (!*enclosed || fabs(sums[VOLUME]) <= 1e-10 * sums[VOLUME_SIZE])
+    double sums[2] = {0.0};
+    OST_TRY(ost_problem_is_enclosed(problem, enclosed));
+    if (*enclosed)
+        OST_TRY(sum_volume(problem, g, sums));
+    if (!*enclosed || fabs(sums[0]) <= 1e-10 * sums[1])
         return OST_SUCCESS;
     return take_objection(
         ctx,

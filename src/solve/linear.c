@@ -109,29 +109,6 @@ static int begins_at_start(const OstAnalysis *analysis)
     return !analysis->problem->pressures && take_start(analysis);
 }
 
-/* Takes the mean off the stress that the pressures of incompressible material are: nothing determines it. */
-static OstStatus centre_pressure(const OstProblem *problem, double *pressure)
-{
-    const OstCoupling *coupling = problem->coupling;
-    const size_t rows = (size_t)coupling->rows;
-    double *uniform = NULL, sums[2] = {0.0};
-    OST_TRY(ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &uniform, 2 * rows + (size_t)coupling->columns)));
-    double *mass = uniform + rows, *size = mass + rows;
-    ost_problem_uniform_pressure(problem, uniform);
-    for (size_t i = 0; i < rows; i++)
-        size[i] = uniform[i] > 0.0 ? 1.0 / uniform[i] : 0.0;
-    OstStatus status = ost_coupling_mass(coupling, size, mass);
-    for (size_t i = 0; i < rows && status == OST_SUCCESS; i++) {
-        sums[0] += uniform[i] * mass[i];
-        sums[1] += pressure[i] * mass[i];
-    }
-    OST_THEN(ost_sum(coupling->ctx, 2, sums));
-    for (size_t i = 0; i < rows && status == OST_SUCCESS; i++)
-        pressure[i] -= uniform[i] * sums[1] / sums[0];
-    OST_FREE(uniform);
-    return status;
-}
-
 /* By the solver, of the right-hand side that is there. */
 static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *report)
 {
@@ -142,7 +119,7 @@ static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *re
     const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
     const OstStatus solved = ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
     if (linear->enclosed)
-        OST_TRY(centre_pressure(analysis->problem, linear->pressure));
+        OST_TRY(ost_problem_centre_pressure(analysis->problem, linear->pressure));
     return solved;
 }
 
