@@ -164,9 +164,30 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
+/* What the prescribed displacements could change the volume by: nodes may move by as much, and the volumes of tets not
+ * change but for rounding. */
+static OstStatus find_sweep(const OstProblem *problem, double *sweep)
+{
+    double low[3], high[3], size[3], most = 0.0;
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++)
+        for (int k = 0; k <= problem->timed_count; k++) {
+            const OstSupports *supports = k == 0 ? problem->supports : problem->timed[k - 1].supports;
+            double projector[9], prescribed[3];
+            ost_supports_get(supports, node, projector, prescribed);
+            most = fmax(most, ost_norm3(prescribed));
+        }
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    OST_TRY(ost_mesh_bounds(problem->mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        size[i] = high[i] - low[i];
+    *sweep = ost_dot3(size, size) * most;
+    return OST_SUCCESS;
+}
+
 /* The changes of volume that a uniform pressure of all incompressible material works on, and their sizes. */
 static OstStatus sum_volume(const OstProblem *problem, const double *g, double sums[2])
 {
+    double sweep;
     double *uniform = NULL;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &uniform, problem->pressures->owned)));
     ost_problem_uniform_pressure(problem, uniform);
@@ -175,7 +196,10 @@ static OstStatus sum_volume(const OstProblem *problem, const double *g, double s
         sums[1] += uniform[i] * fabs(g[i]);
     }
     OST_FREE(uniform);
-    return ost_sum(problem->ctx, 2, sums);
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
+    OST_TRY(find_sweep(problem, &sweep));
+    sums[1] += sweep;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before)

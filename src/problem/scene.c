@@ -141,11 +141,13 @@ static void find_way_to_mixed(const OstScene *scene, char *text, size_t size)
     const OstCase *c = scene->c;
     const int is_linear = scene->mesh->nodes_per_tet == 4;
     const int is_classical = c->formulation == OST_FORMULATION_CLASSICAL && c->large_rotation == OST_LARGE_ROTATION_ON;
-    snprintf(text, size, "%s%s%s%s, or ", is_linear || c->unmixed ? "element: {" : "",
+    snprintf(text, size, "%s%s%s%s", is_linear || c->unmixed ? "element: {" : "",
              is_linear ? c->unmixed ? "order: 2, " : "order: 2}" : "", c->unmixed ? "mixed: auto}" : "",
              !is_classical             ? ""
              : is_linear || c->unmixed ? " and formulation: consistent"
                                        : "formulation: consistent");
+    if (text[0])
+        strncat(text, ", or ", size - strlen(text) - 1);
 }
 
 static OstStatus refuse_incompressible(const OstScene *scene, int region)
