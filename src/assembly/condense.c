@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "assembly/row_parts.h"
+#include "assembly/links/row_parts.h"
+#include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/number_set.h"
@@ -333,7 +334,7 @@ static OstStatus condense(Condensation *c)
 {
     OstContext *ctx = c->system->ctx;
     OstBlockMatrix *matrix = c->system->matrix;
-    OST_TRY(ost_row_numbers_create(c->system, &c->rows));
+    OST_TRY(ost_row_numbers_create(c->links, c->system->row_of_node, matrix->first_row, &c->rows));
     const OstStatus status = spread_blocks(c);
     merge_entries(c);
     OST_TRY(ost_agree(ctx, status));

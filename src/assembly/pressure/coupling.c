@@ -278,7 +278,8 @@ static OstStatus find_columns(const OstSystem *system, Columns *columns)
         *columns = (Columns){.count = system->matrix->columns, .of_node = system->row_of_node};
         return OST_SUCCESS;
     }
-    OST_TRY(ost_row_numbers_create(system, &columns->rows));
+    OST_TRY(ost_row_numbers_create(system->supports->links, system->row_of_node, system->matrix->first_row,
+                                   &columns->rows));
     return ost_agree(system->ctx, number_nodes(system, columns));
 }
 

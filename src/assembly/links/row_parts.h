@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#ifndef ORTHOSTAT_ASSEMBLY_ROW_PARTS_H
-#define ORTHOSTAT_ASSEMBLY_ROW_PARTS_H
+#ifndef ORTHOSTAT_ASSEMBLY_LINKS_ROW_PARTS_H
+#define ORTHOSTAT_ASSEMBLY_LINKS_ROW_PARTS_H
 
-#include "assembly/system.h"
+#include "assembly/links/links.h"
 
 /* What a node's displacement is made of where nodes follow others: rows, by numbers over all ranks, and 3×3 weights. */
 typedef struct OstRowParts {
@@ -18,8 +18,9 @@ typedef struct OstRowNumbers {
     OstGlobal *of_leader; /* links->slots */
 } OstRowNumbers;
 
-/* Collective. Of a system whose rows are numbered, and whose supports have links. */
-OstStatus ost_row_numbers_create(const OstSystem *system, OstRowNumbers *numbers);
+/* Collective. `row_of_node`: this rank's row of each owned node, or -1; `first_row`: the number of its first. */
+OstStatus ost_row_numbers_create(const OstLinks *links, const OstLocal *row_of_node, OstGlobal first_row,
+                                 OstRowNumbers *numbers);
 void ost_row_numbers_clear(OstRowNumbers *numbers);
 
 /* Local. A node that follows nobody has its own row, at the weight 1: its support is left to the caller. The weights of
