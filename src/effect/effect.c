@@ -149,15 +149,15 @@ int ost_effects_mixed(const OstEffectFacts *facts)
     return why_not_mixed(facts) == NULL;
 }
 
-/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; the
- * pressures of each tet. */
+/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), from which those of linked
+ * faces are made anew, and to 15 vertices; the pressures of each tet. */
 static void mixed(const OstEffectFacts *f, OstEffectState *state)
 {
     const char *why = why_not_mixed(f);
     if (why)
         off(state, why);
     else
-        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
+        on(state, ((has_links(f) ? 2.0 : 1.0) * 65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
            "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
            f->nearly_incompressible, f->materials);
 }
