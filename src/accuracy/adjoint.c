@@ -199,9 +199,10 @@ struct OstAdjoint {
     size_t nodes;
     OstEnriched e; /* the surplus of z, lengthened, over `size` */
     double size;
-    double *pressure;  /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
-    OstOrders *orders; /* owned_tets; NULL where orders above the next are not known */
-    double *z;         /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *pressure;   /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
+    OstOrders *orders;  /* owned_tets; NULL where orders above the next are not known */
+    double *z;          /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *z_pressure; /* the owned pressures of z, of a mixed form; or NULL */
 };
 
 void ost_adjoint_destroy(OstAdjoint **adjoint)
@@ -210,7 +211,7 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
         return;
     OST_FREE((*adjoint)->e.rows);
     OST_FREE((*adjoint)->e.functions);
-    OST_FREE((*adjoint)->z);
+    OST_FREE((*adjoint)->z, (*adjoint)->z_pressure);
     OST_FREE((*adjoint)->pressure);
     OST_FREE((*adjoint)->orders);
     OST_FREE(*adjoint);
@@ -304,7 +305,8 @@ static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted,
 static const double residual_of_mixed = 1e-4;
 
 /* steps.u: z, and its pressures, of tets, by both equations of a mixed form. */
-static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, double *of_tets, double *swelling)
+static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, OstAdjoint *adjoint, double *of_tets,
+                                     double *swelling)
 {
     const OstProblem *problem = search->estimate->problem;
     const OstPressureSpace *space = problem->pressures;
@@ -329,6 +331,8 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OST_TRY_DONE(status);
     OST_TRY_DONE(ost_pressure_complete(space, pressure));
     ost_pressure_of_tets(space, pressure, of_tets);
+    adjoint->z_pressure = pressure;
+    pressure = NULL;
     status = ost_system_displacement(problem->system, 0.0, steps->z, steps->u);
 done:
     OST_FREE(g);
@@ -349,7 +353,7 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     OST_THEN(OST_NEW(problem->ctx, &z, numbers));
     OST_THEN(OST_NEW(problem->ctx, &adjoint->pressure, 4 * (size_t)problem->mesh->tet_count));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
-    OST_TRY_DONE(solve_mixed_adjoint(search, wanted, of_tets, &swelling));
+    OST_TRY_DONE(solve_mixed_adjoint(search, wanted, adjoint, of_tets, &swelling));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     for (size_t i = 0; i < numbers; i++)
         z[i] = search->steps.u[i] + (interest->moved ? interest->moved[i] : 0.0);
@@ -484,6 +488,11 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint)
 {
     return adjoint->z;
+}
+
+const double *ost_adjoint_pressure(const OstAdjoint *adjoint)
+{
+    return adjoint->z_pressure;
 }
 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
