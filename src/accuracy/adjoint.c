@@ -199,9 +199,10 @@ struct OstAdjoint {
     size_t nodes;
     OstEnriched e; /* the surplus of z, lengthened, over `size` */
     double size;
-    double *pressure;  /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
-    OstOrders *orders; /* owned_tets; NULL where orders above the next are not known */
-    double *z;         /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *pressure;   /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
+    OstOrders *orders;  /* owned_tets; NULL where orders above the next are not known */
+    double *z;          /* 3 × owned_nodes: what the solve adds to the given motion */
+    double *z_pressure; /* the owned pressures of z, of a mixed form; or NULL */
 };
 
 void ost_adjoint_destroy(OstAdjoint **adjoint)
@@ -210,7 +211,7 @@ void ost_adjoint_destroy(OstAdjoint **adjoint)
         return;
     OST_FREE((*adjoint)->e.rows);
     OST_FREE((*adjoint)->e.functions);
-    OST_FREE((*adjoint)->z);
+    OST_FREE((*adjoint)->z, (*adjoint)->z_pressure);
     OST_FREE((*adjoint)->pressure);
     OST_FREE((*adjoint)->orders);
     OST_FREE(*adjoint);
@@ -304,7 +305,8 @@ static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted,
 static const double residual_of_mixed = 1e-4;
 
 /* steps.u: z, and its pressures, of tets, by both equations of a mixed form. */
-static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, double *of_tets)
+static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, OstAdjoint *adjoint, double *of_tets,
+                                     double *swelling)
 {
     const OstProblem *problem = search->estimate->problem;
     const OstPressureSpace *space = problem->pressures;
@@ -312,10 +314,15 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OstSteps *steps = &search->steps;
     OstSolveReport report;
     double *g = NULL, *pressure = NULL;
+    int enclosed = 0;
     OstStatus status = OST_NEW(problem->ctx, &g, space->owned);
-    OST_THEN(OST_NEW(problem->ctx, &pressure, space->count));
+    OST_THEN(OST_NEW(problem->ctx, &pressure, ost_problem_pressure_room(problem)));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     OST_TRY_DONE(adjoint_volume(problem, wanted, g));
+    if (ost_problem_is_linear(problem))
+        OST_TRY_DONE(ost_problem_is_enclosed(problem, &enclosed));
+    if (enclosed) /* the quantity is that at a mean pressure of 0 */
+        OST_TRY_DONE(ost_problem_keep_volume(problem, g, swelling));
     OST_TRY_DONE(adjoint_load(search, interest, wanted->t, wanted->u));
     ost_solver_aim(steps->solver, (OstSolverAim){.relative_residual = residual_of_mixed});
     status = ost_solver_solve_mixed(steps->solver, &(OstSaddle){problem->coupling, g, pressure}, steps->q.rows,
@@ -324,6 +331,8 @@ static OstStatus solve_mixed_adjoint(Search *search, const Wanted *wanted, doubl
     OST_TRY_DONE(status);
     OST_TRY_DONE(ost_pressure_complete(space, pressure));
     ost_pressure_of_tets(space, pressure, of_tets);
+    adjoint->z_pressure = pressure;
+    pressure = NULL;
     status = ost_system_displacement(problem->system, 0.0, steps->z, steps->u);
 done:
     OST_FREE(g);
@@ -337,21 +346,21 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->node_count;
     const OstInterest *interest = wanted->interest;
-    double *of_tets = NULL, *z = NULL;
+    double *of_tets = NULL, *z = NULL, swelling = 0.0;
     OstMaterialField field;
     OstProblem state;
     OstStatus status = OST_NEW(problem->ctx, &of_tets, 4 * (size_t)problem->mesh->tet_count);
     OST_THEN(OST_NEW(problem->ctx, &z, numbers));
     OST_THEN(OST_NEW(problem->ctx, &adjoint->pressure, 4 * (size_t)problem->mesh->tet_count));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
-    OST_TRY_DONE(solve_mixed_adjoint(search, wanted, of_tets));
+    OST_TRY_DONE(solve_mixed_adjoint(search, wanted, adjoint, of_tets, &swelling));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
     for (size_t i = 0; i < numbers; i++)
         z[i] = search->steps.u[i] + (interest->moved ? interest->moved[i] : 0.0);
     ost_problem_at_pressure(problem, of_tets, &field, &state);
     field.region_eigenstrain = NULL;
     field.tet_eigenstrain = interest->strain;
-    const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR};
+    const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR, -swelling};
     OST_TRY_DONE(mixed_adjoint_residual(search, &of));
     OST_TRY_DONE(find_surplus(search, wanted, NULL, adjoint));
     if (!search->steps.failed)
@@ -371,7 +380,7 @@ static OstStatus strained_residual(Search *search, const OstInterest *interest)
     ost_problem_at_pressure(search->estimate->problem, NULL, &field, &state);
     field.region_eigenstrain = NULL;
     field.tet_eigenstrain = interest->strain;
-    OST_TRY(mixed_adjoint_residual(search, &(OstState){&state, steps->u, 1.0, OST_FORMULATION_LINEAR}));
+    OST_TRY(mixed_adjoint_residual(search, &(OstState){&state, steps->u, 1.0, OST_FORMULATION_LINEAR, 0.0}));
     for (size_t i = 0; i < 3 * (size_t)search->estimate->problem->mesh->node_count; i++)
         steps->u[i] /= steps->size;
     return OST_SUCCESS;
@@ -469,7 +478,7 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
     if (adjoint->pressure) {
         double of_pressure = 0.0;
         const OstProblem *problem = estimate->problem;
-        const OstState state = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation};
+        const OstState state = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation, 0.0};
         OST_THEN(ost_pressure_work(estimate, &state, adjoint->pressure, &of_pressure));
         *error += of_pressure;
     }
@@ -479,6 +488,11 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint)
 {
     return adjoint->z;
+}
+
+const double *ost_adjoint_pressure(const OstAdjoint *adjoint)
+{
+    return adjoint->z_pressure;
 }
 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,

@@ -369,7 +369,7 @@ static OstStatus hand_out_all(Search *search, const OstProblem *state, const Ost
 static OstStatus hand_out_mixed(Search *search, double t, const double *u, const OstSurplus *surplus)
 {
     const OstProblem *problem = search->estimate->problem;
-    const OstState of = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation};
+    const OstState of = {problem, u, ost_problem_eigen_share(problem, t), problem->formulation, 0.0};
     double *of_tets = NULL;
     OstMaterialField field;
     OstProblem state;

@@ -95,6 +95,9 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
 /* Local. What z has beside the given motion, 3 × owned_nodes; 0 where that is. */
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint);
 
+/* Local. The owned pressures of z, of a mixed form; else NULL. */
+const double *ost_adjoint_pressure(const OstAdjoint *adjoint);
+
 /* Collective. An estimate for another loading, which uses what this one keeps and is destroyed before it. Of linear
  * theory. */
 OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "element/biot.h"
 
 #include <math.h>
@@ -92,6 +93,18 @@ static void add_volume(const Part *part, double *volume)
     }
 }
 
+/* Takes off what is meant to be left of incompressible material. */
+static void leave_swelling(const OstState *of, double *volume)
+{
+    const OstProblem *problem = of->problem;
+    for (OstLocal tet = 0; of->swelling != 0.0 && tet < problem->mesh->tet_count; tet++) {
+        const double *mode = ost_field_stiff_mode(problem->field, problem->mesh->tet_region[tet]);
+        const int is_loose = problem->field->mixed.looseness[problem->mesh->tet_region[tet]] > 0.0;
+        for (int v = 0; v < VERTICES && mode && !is_loose; v++)
+            volume[VERTICES * (size_t)tet + (size_t)v] -= of->swelling * ost_norm3(mode);
+    }
+}
+
 /* What e leaves of the second equation, and the pressures that it is worth. */
 static OstStatus find_pressures(Search *search, const OstState *of, double *volume, double *of_tets)
 {
@@ -103,6 +116,7 @@ static OstStatus find_pressures(Search *search, const OstState *of, double *volu
     at_state.problem = of->problem;
     no_pressure.problem = &without;
     add_volume(&(Part){&at_state, of->formulation, of->u, NULL, 1.0, of->eigen_share}, volume);
+    leave_swelling(of, volume);
     OST_TRY(ost_search_displacement(search));
     OST_TRY(ost_complement_import(&search->estimate->complement, search->steps.e.functions));
     add_volume(&(Part){&no_pressure, OST_FORMULATION_LINEAR, search->steps.u, search->steps.e.functions,

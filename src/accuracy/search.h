@@ -99,6 +99,7 @@ typedef struct OstState {
     const double *u;
     double eigen_share;
     OstFormulation formulation; /* LINEAR: also of a small one about a body that has turned */
+    double swelling;            /* of incompressible material, over |m|, that is to be left */
 } OstState;
 
 /* Collective, after the steps of a mixed form's estimate. They have found the e of which A e balances

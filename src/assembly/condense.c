@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/row_parts.h"
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/route.h"
@@ -19,57 +21,15 @@ typedef struct Entry {
     double value[9];
 } Entry;
 
-/* What a node's displacement is made of: rows and weights. */
-typedef struct Parts {
-    int count;
-    OstGlobal row[OST_MOST_LEADERS]; /* -1: none, all of it is prescribed */
-    const double *weight[OST_MOST_LEADERS];
-} Parts;
-
 typedef struct Condensation {
     OstSystem *system;
     const OstLinks *links;
-    OstGlobal *row_of_node;   /* node_count: rows of nodes that follow nobody, -1 for others */
-    OstGlobal *row_of_leader; /* links->slots */
+    OstRowNumbers rows;
     OstLocal count, capacity;
     Entry *entry;
     OstLocal ghosts;
     OstGlobal *ghost; /* rows of other ranks, ascending */
 } Condensation;
-
-static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-
-static OstStatus number_rows(Condensation *c)
-{
-    const OstSystem *system = c->system;
-    const OstMesh *mesh = system->mesh;
-    OST_TRY(OST_NEW(system->ctx, &c->row_of_node, mesh->node_count));
-    OST_TRY(OST_NEW(system->ctx, &c->row_of_leader, c->links->slots));
-    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        const OstLocal row = system->row_of_node[n];
-        c->row_of_leader[n] = row < 0 ? -1 : system->matrix->first_row + row;
-        c->row_of_node[n] = c->links->of_node[n] >= 0 ? -1 : c->row_of_leader[n];
-    }
-    return OST_SUCCESS;
-}
-
-static OstStatus share_rows(Condensation *c)
-{
-    OST_TRY(ost_halo_import(c->system->mesh->halo, sizeof *c->row_of_node, c->row_of_node));
-    return ost_halo_import(c->links->halo, sizeof *c->row_of_leader, c->row_of_leader);
-}
-
-static void find_parts(const Condensation *c, OstLocal node, Parts *parts)
-{
-    const OstLink *link = ost_link_of(c->links, node);
-    parts->count = link ? link->count : 1;
-    parts->row[0] = c->row_of_node[node];
-    parts->weight[0] = identity;
-    for (int k = 0; link && k < link->count; k++) {
-        parts->row[k] = c->row_of_leader[link->slot[k]];
-        parts->weight[k] = link->leader[k].weight;
-    }
-}
 
 static OstStatus add_entry(Condensation *c, OstGlobal row, OstGlobal column, const double value[9])
 {
@@ -85,7 +45,7 @@ static OstStatus add_entry(Condensation *c, OstGlobal row, OstGlobal column, con
     return OST_SUCCESS;
 }
 
-static OstStatus spread_block(Condensation *c, const Parts *left, const Parts *right, const double *block)
+static OstStatus spread_block(Condensation *c, const OstRowParts *left, const OstRowParts *right, const double *block)
 {
     for (int a = 0; a < left->count; a++)
         for (int b = 0; b < right->count; b++) {
@@ -106,13 +66,13 @@ static OstStatus spread_blocks(Condensation *c)
     const OstBlockMatrix *matrix = whole->matrix;
     for (OstLocal row = 0; row < matrix->rows; row++) {
         const OstLocal node = whole->node_of_row[row];
-        Parts left, right;
-        find_parts(c, node, &left);
+        OstRowParts left, right;
+        ost_row_parts(&c->rows, node, &left);
         for (OstLocal k = matrix->row_start[row]; k < matrix->row_start[row + 1]; k++) {
             const OstLocal other = whole->node_of_row[matrix->column[k]];
             if (!ost_link_of(c->links, node) && !ost_link_of(c->links, other))
                 continue;
-            find_parts(c, other, &right);
+            ost_row_parts(&c->rows, other, &right);
             OST_TRY(spread_block(c, &left, &right, matrix->value + 9 * (size_t)k));
         }
     }
@@ -181,13 +141,6 @@ static OstStatus send_entries(Condensation *c)
     return status;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static int is_mine(const Condensation *c, OstGlobal row)
 {
     const OstBlockMatrix *matrix = c->system->matrix;
@@ -207,7 +160,7 @@ static OstLocal plain_blocks(const Condensation *c, OstLocal row, OstGlobal *col
         if (ost_link_of(c->links, other))
             continue;
         if (column) {
-            column[count] = c->row_of_node[other];
+            column[count] = c->rows.of_node[other];
             value[count] = matrix->value + 9 * (size_t)k;
         }
         count++;
@@ -215,26 +168,27 @@ static OstLocal plain_blocks(const Condensation *c, OstLocal row, OstGlobal *col
     return count;
 }
 
-/* The rows of other ranks among all columns. */
+/* The rows of other ranks among all columns; and what else moves a local tet, which a mixed form's pressures ask for.
+ */
 static OstStatus list_ghosts(Condensation *c)
 {
     const OstSystem *whole = c->system->whole;
+    const OstLocal owned = c->system->mesh->owned_nodes;
     OstLocal listed = 0;
-    const OstLocal most = c->count + (whole->matrix->columns - whole->matrix->rows);
+    const OstLocal most = c->count + (whole->matrix->columns - whole->matrix->rows) + (c->links->slots - owned);
     OST_TRY(OST_NEW(c->system->ctx, &c->ghost, most));
     for (OstLocal i = 0; i < c->count; i++)
         if (!is_mine(c, c->entry[i].column))
             c->ghost[listed++] = c->entry[i].column;
     for (OstLocal column = whole->matrix->rows; column < whole->matrix->columns; column++) {
-        const OstGlobal row = c->row_of_node[whole->node_of_row[column]];
+        const OstGlobal row = c->rows.of_node[whole->node_of_row[column]];
         if (row >= 0)
             c->ghost[listed++] = row;
     }
-    if (listed > 0)
-        qsort(c->ghost, (size_t)listed, sizeof *c->ghost, compare_numbers);
-    for (OstLocal i = 0; i < listed; i++)
-        if (i == 0 || c->ghost[i] != c->ghost[c->ghosts - 1])
-            c->ghost[c->ghosts++] = c->ghost[i];
+    for (OstLocal slot = owned; slot < c->links->slots; slot++)
+        if (c->rows.of_leader[slot] >= 0)
+            c->ghost[listed++] = c->rows.of_leader[slot];
+    c->ghosts = ost_numbers_sort(listed, c->ghost);
     return OST_SUCCESS;
 }
 
@@ -243,8 +197,7 @@ static OstLocal column_of(const Condensation *c, OstGlobal row)
     const OstBlockMatrix *matrix = c->system->matrix;
     if (is_mine(c, row))
         return (OstLocal)(row - matrix->first_row);
-    const OstGlobal *found = bsearch(&row, c->ghost, (size_t)c->ghosts, sizeof *c->ghost, compare_numbers);
-    return matrix->rows + (OstLocal)(found - c->ghost);
+    return matrix->rows + ost_numbers_find(c->ghosts, c->ghost, row);
 }
 
 typedef struct Block {
@@ -381,8 +334,7 @@ static OstStatus condense(Condensation *c)
 {
     OstContext *ctx = c->system->ctx;
     OstBlockMatrix *matrix = c->system->matrix;
-    OST_TRY(ost_agree(ctx, number_rows(c)));
-    OST_TRY(ost_agree(ctx, share_rows(c)));
+    OST_TRY(ost_row_numbers_create(c->links, c->system->row_of_node, matrix->first_row, &c->rows));
     const OstStatus status = spread_blocks(c);
     merge_entries(c);
     OST_TRY(ost_agree(ctx, status));
@@ -400,10 +352,8 @@ OstStatus ost_system_condense(OstSystem *system)
     ost_ledger_enter(system->ctx, OST_LEDGER_SUPPORTS);
     forget_matrix(system);
     const OstStatus status = condense(&c);
-    OST_FREE(c.row_of_node);
-    OST_FREE(c.row_of_leader);
-    OST_FREE(c.entry);
-    OST_FREE(c.ghost);
+    ost_row_numbers_clear(&c.rows);
+    OST_FREE(c.entry, c.ghost);
     ost_ledger_leave(system->ctx);
     return status;
 }

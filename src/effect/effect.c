@@ -141,8 +141,6 @@ static const char *why_not_mixed(const OstEffectFacts *f)
         return "the case says so: element: {mixed: off}";
     if (f->large_rotation == 2 && f->classical && !f->free_body)
         return "formulation: classical uses the mean dilatation";
-    if (is_solved_linearly(f))
-        return "rigid, tied or periodic faces and moved distributing couplings use the mean dilatation";
     return NULL;
 }
 
@@ -151,19 +149,17 @@ int ost_effects_mixed(const OstEffectFacts *facts)
     return why_not_mixed(facts) == NULL;
 }
 
-/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), and to 15 vertices; the
- * pressures of each tet. */
+/* A pressure for each vertex with its couplings: to 65 nodes (three numbers and a column), from which those of linked
+ * faces are made anew, and to 15 vertices; the pressures of each tet. */
 static void mixed(const OstEffectFacts *f, OstEffectState *state)
 {
     const char *why = why_not_mixed(f);
     if (why)
         off(state, why);
     else
-        on(state, (65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
+        on(state, ((has_links(f) ? 2.0 : 1.0) * 65.0 * 28.0 + 15.0 * 12.0 + 50.0) * f->vertices + 48.0 * f->tets,
            "quadratic tets, and %d of %d materials are nearly incompressible: their pressure is an unknown of its own",
            f->nearly_incompressible, f->materials);
-    if (!why)
-        except_linear(f, state);
 }
 
 static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)

@@ -164,49 +164,62 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
     return OST_SUCCESS;
 }
 
-/* The forces of a uniform pressure on all incompressible material are none at any free node, if no surface of it is
- * free to move: its changes of volume, summed, are then none either. */
-enum { VOLUME, VOLUME_SIZE, FORCE_SIZE, FORCE, VOLUME_SUMS };
-
-static OstStatus add_uniform_pressure(const OstCoupling *coupling, const double *g, double sums[VOLUME_SUMS])
+/* What the prescribed displacements could change the volume by: nodes may move by as much, and the volumes of tets not
+ * change but for rounding. */
+static OstStatus find_sweep(const OstProblem *problem, double *sweep)
 {
-    double *pressure = NULL, *force = NULL;
-    OstStatus status = OST_NEW(coupling->ctx, &pressure, coupling->columns);
-    OST_THEN(OST_NEW(coupling->ctx, &force, 3 * (size_t)coupling->unknowns));
-    OST_TRY_DONE(ost_agree(coupling->ctx, status));
-    for (OstLocal i = 0; i < coupling->rows; i++) {
-        if (coupling->looseness[i] > 0.0)
-            continue;
-        pressure[i] = 1.0;
-        sums[VOLUME] += g[i];
-        sums[VOLUME_SIZE] += fabs(g[i]);
-        for (OstLocal k = 3 * coupling->row_start[i]; k < 3 * coupling->row_start[i + 1]; k++)
-            sums[FORCE_SIZE] += fabs(coupling->value[k]);
+    double low[3], high[3], size[3], most = 0.0;
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++)
+        for (int k = 0; k <= problem->timed_count; k++) {
+            const OstSupports *supports = k == 0 ? problem->supports : problem->timed[k - 1].supports;
+            double projector[9], prescribed[3];
+            ost_supports_get(supports, node, projector, prescribed);
+            most = fmax(most, ost_norm3(prescribed));
+        }
+    OST_TRY(ost_max(problem->ctx, 1, &most));
+    OST_TRY(ost_mesh_bounds(problem->mesh, low, high));
+    for (int i = 0; i < 3; i++)
+        size[i] = high[i] - low[i];
+    *sweep = ost_dot3(size, size) * most;
+    return OST_SUCCESS;
+}
+
+/* The changes of volume that a uniform pressure of all incompressible material works on, and their sizes. */
+static OstStatus sum_volume(const OstProblem *problem, const double *g, double sums[2])
+{
+    double sweep;
+    double *uniform = NULL;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &uniform, problem->pressures->owned)));
+    ost_problem_uniform_pressure(problem, uniform);
+    for (OstLocal i = 0; i < problem->pressures->owned; i++) {
+        sums[0] += uniform[i] * g[i];
+        sums[1] += uniform[i] * fabs(g[i]);
     }
-    OST_TRY_DONE(ost_coupling_transpose(coupling, pressure, force));
-    for (OstLocal k = 0; k < 3 * coupling->unknowns; k++)
-        sums[FORCE] += fabs(force[k]);
-done:
-    OST_FREE(pressure);
-    OST_FREE(force);
-    return status;
+    OST_FREE(uniform);
+    OST_TRY(ost_sum(problem->ctx, 2, sums));
+    OST_TRY(find_sweep(problem, &sweep));
+    sums[1] += sweep;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
-    double sums[VOLUME_SUMS] = {0.0};
-    OST_TRY(add_uniform_pressure(problem->coupling, g, sums));
-    OST_TRY(ost_sum(ctx, VOLUME_SUMS, sums));
-    *enclosed = sums[FORCE_SIZE] > 0.0 && sums[FORCE] <= 1e-10 * sums[FORCE_SIZE];
-    if (!*enclosed || fabs(sums[VOLUME]) <= 1e-10 * sums[VOLUME_SIZE])
+    const OstLinks *links = problem->supports->links;
+    double sums[2] = {0.0};
+    OST_TRY(ost_problem_is_enclosed(problem, enclosed));
+    if (*enclosed)
+        OST_TRY(sum_volume(problem, g, sums));
+    if (!*enclosed || fabs(sums[0]) <= 1e-10 * sums[1])
         return OST_SUCCESS;
     return take_objection(
         ctx,
         OST_RAISE(ctx, OST_INVALID_INPUT,
                   "%s: the body is incompressible (nu = 1/2) and held all around, and what is prescribed changes its "
-                  "volume: leave a part of its surface free, or set nu = 0.4999",
-                  ost_problem_name(problem)),
+                  "volume: %s, or set nu = 0.4999",
+                  ost_problem_name(problem),
+                  links && links->periodic ? "let the strain of the periodic cell have xx + yy + zz = 0"
+                                           : "leave a part of its surface free"),
         before);
 }
 

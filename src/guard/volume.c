@@ -13,6 +13,7 @@ typedef struct Work {
     double *worth;       /* count */
     double *of_tets;     /* 4 × tet_count */
     double *zero, *force;
+    double *at_leaders; /* 3 × slots of the links, or NULL */
 } Work;
 
 static void release(Work *work)
@@ -23,6 +24,7 @@ static void release(Work *work)
     OST_FREE(work->of_tets);
     OST_FREE(work->zero);
     OST_FREE(work->force);
+    OST_FREE(work->at_leaders);
 }
 
 static OstStatus make_room(const OstProblem *problem, Work *work)
@@ -53,6 +55,19 @@ static double find_work(const OstProblem *problem, const Work *work)
     return sum;
 }
 
+/* Of a node's force what no support takes, with that of its followers, squared. */
+static double free_square(const OstSupports *supports, const Work *work, OstLocal node)
+{
+    double projector[9], left[3] = {0.0};
+    if (!ost_link_of(supports->links, node)) {
+        ost_supports_get(supports, node, projector, NULL);
+        ost_apply3(projector, work->force + 3 * (size_t)node, left);
+    }
+    for (int i = 0; i < 3 && work->at_leaders; i++)
+        left[i] += work->at_leaders[3 * (size_t)node + (size_t)i];
+    return ost_dot3(left, left);
+}
+
 /* The forces of the pressure that would close the gap. */
 static OstStatus find_force(const OstProblem *problem, Work *work, double *square)
 {
@@ -65,12 +80,13 @@ static OstStatus find_force(const OstProblem *problem, Work *work, double *squar
     ost_pressure_of_tets(space, work->worth, work->of_tets);
     ost_problem_at_pressure(problem, work->of_tets, &field, &state);
     OST_TRY(ost_agree(problem->ctx, ost_internal_force(space->mesh, &field, 0.0, work->zero, work->force, NULL)));
-    for (OstLocal node = 0; node < space->mesh->owned_nodes; node++) {
-        double projector[9], left[3];
-        ost_supports_get(problem->supports, node, projector, NULL);
-        ost_apply3(projector, work->force + 3 * (size_t)node, left);
-        *square += ost_dot3(left, left);
+    if (problem->supports->links) {
+        OST_TRY(ost_agree(problem->ctx,
+                          OST_NEW(problem->ctx, &work->at_leaders, 3 * (size_t)problem->supports->links->slots)));
+        OST_TRY(ost_links_gather(problem->supports->links, work->force, work->at_leaders));
     }
+    for (OstLocal node = 0; node < space->mesh->owned_nodes; node++)
+        *square += free_square(problem->supports, work, node);
     return OST_SUCCESS;
 }
 

@@ -112,6 +112,24 @@ OstStatus ost_problem_function_volume(const OstProblem *problem, int function, d
 void ost_problem_at_pressure(const OstProblem *problem, const double *of_tets, OstMaterialField *field,
                              OstProblem *state);
 
+/* Local. The owned pressures of one stress m p, of the size 1, in all incompressible material; 0 in other. */
+void ost_problem_uniform_pressure(const OstProblem *problem, double *pressure);
+
+/* Collective. Is no surface of incompressible material free to move, nor a compressible body beside it? That stress
+ * then has no force at any free node: nothing determines how large it is, and the sum of all changes of volume is 0.
+ * Linear theory. */
+OstStatus ost_problem_is_enclosed(const OstProblem *problem, int *enclosed);
+
+/* Collective. Of an enclosed body: takes the mean off the stress that the pressures are; and takes off a right-hand
+ * side g of the pressures what changes the volume of the whole, evenly spread: `swelling` × |m| at each point. */
+OstStatus ost_problem_centre_pressure(const OstProblem *problem, double *pressure);
+OstStatus ost_problem_keep_volume(const OstProblem *problem, double *g, double *swelling);
+
+/* Local. The room for pressures that are solved for, once there is a stiffness: pressures->count or, where nodes follow
+ * others, what the coupling has more of other ranks. The owned come first in both; ost_pressure_complete sets the
+ * ghosts that tets ask for. */
+size_t ost_problem_pressure_room(const OstProblem *problem);
+
 /* Local. From now on the problem's own forces, energies and stiffness are those with these pressures of its tets (NULL:
  * 0), which the caller keeps. */
 void ost_problem_take_pressure(OstProblem *problem, const double *of_tets);

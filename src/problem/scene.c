@@ -135,23 +135,19 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     return status;
 }
 
-/* What the case may say so that the mixed form is on; nothing where it has no such form. */
+/* What the case may say so that the mixed form is on. */
 static void find_way_to_mixed(const OstScene *scene, char *text, size_t size)
 {
     const OstCase *c = scene->c;
     const int is_linear = scene->mesh->nodes_per_tet == 4;
     const int is_classical = c->formulation == OST_FORMULATION_CLASSICAL && c->large_rotation == OST_LARGE_ROTATION_ON;
-    int is_linked = scene->drive != NULL;
-    for (int i = 0; i < c->constraint_count; i++)
-        is_linked |= ost_constraint_links(&c->constraints[i]);
-    text[0] = '\0';
-    if (is_linked)
-        return;
-    snprintf(text, size, "%s%s%s%s, or ", is_linear || c->unmixed ? "element: {" : "",
+    snprintf(text, size, "%s%s%s%s", is_linear || c->unmixed ? "element: {" : "",
              is_linear ? c->unmixed ? "order: 2, " : "order: 2}" : "", c->unmixed ? "mixed: auto}" : "",
              !is_classical             ? ""
              : is_linear || c->unmixed ? " and formulation: consistent"
                                        : "formulation: consistent");
+    if (text[0])
+        strncat(text, ", or ", size - strlen(text) - 1);
 }
 
 static OstStatus refuse_incompressible(const OstScene *scene, int region)
@@ -342,19 +338,6 @@ OstStatus ost_scene_create_finer(const OstScene *coarse, const OstCase *c, OstMe
     return status;
 }
 
-/* A load case that is solved linearly has the mean dilatation in place of a mixed form that others have. */
-static OstStatus leave_mixed(OstScene *scene)
-{
-    if (!ost_field_is_mixed(scene->field) || ost_effect_on(&scene->plan.effects, OST_EFFECT_MIXED))
-        return OST_SUCCESS;
-    if (ost_field_incompressible(scene->field) >= 0)
-        return refuse_incompressible(scene, ost_field_incompressible(scene->field));
-    scene->unmixed = *scene->field;
-    scene->unmixed.form = scene->field->mean.stiff_mode ? OST_SPLIT_MEAN : OST_SPLIT_NOT;
-    scene->field = &scene->unmixed;
-    return OST_SUCCESS;
-}
-
 OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_case)
 {
     OstContext *ctx = scene->ctx;
@@ -368,7 +351,6 @@ OstStatus ost_scene_load_case(const OstScene *scene, int number, OstScene **of_c
     made->borrows = 1;
     OstStatus status = make_plan(made, scene->from_file);
     OST_THEN(check_places(made));
-    OST_THEN(leave_mixed(made));
     if (status != OST_SUCCESS)
         ost_scene_destroy(&made);
     *of_case = made;

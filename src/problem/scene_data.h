@@ -21,7 +21,6 @@ struct OstScene {
     OstMesh *mesh;
     OstMaterialField *field;
     int borrows;                /* mesh, materials and field are another scene's, of which this is a load case */
-    OstMaterialField unmixed;   /* that field without its mixed form, where this load case alone does not use it */
     const OstClosedForm *exact; /* what `exact` in the case stands for; set by `orthostat verify` */
 };
 

@@ -48,7 +48,7 @@ static OstStatus prepare_stiffness(OstAnalysis *analysis, OstVerdict *before)
     OST_THEN(OST_NEW(ctx, &linear->v, unknowns));
     if (problem->pressures) {
         OST_THEN(OST_NEW(ctx, &linear->volume, problem->pressures->owned));
-        OST_THEN(OST_NEW(ctx, &linear->pressure, problem->pressures->count));
+        OST_THEN(OST_NEW(ctx, &linear->pressure, ost_problem_pressure_room(problem)));
     }
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(ost_stiffness_solver_create(problem, &analysis->options, &linear->stiffness));
@@ -109,27 +109,6 @@ static int begins_at_start(const OstAnalysis *analysis)
     return !analysis->problem->pressures && take_start(analysis);
 }
 
-/* Takes the mean off the pressures of incompressible material, which nothing determines. */
-static OstStatus centre_pressure(const OstCoupling *coupling, double *pressure)
-{
-    double *mass = NULL, sums[2] = {0.0};
-    OST_TRY(
-        ost_agree(coupling->ctx, OST_NEW(coupling->ctx, &mass, (size_t)coupling->columns + (size_t)coupling->rows)));
-    double *ones = mass + coupling->rows;
-    for (OstLocal i = 0; i < coupling->rows; i++)
-        ones[i] = coupling->looseness[i] == 0.0;
-    OstStatus status = ost_coupling_mass(coupling, ones, mass);
-    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++) {
-        sums[0] += ones[i] * mass[i];
-        sums[1] += pressure[i] * mass[i];
-    }
-    OST_THEN(ost_sum(coupling->ctx, 2, sums));
-    for (OstLocal i = 0; i < coupling->rows && status == OST_SUCCESS; i++)
-        pressure[i] -= ones[i] * sums[1] / sums[0];
-    OST_FREE(mass);
-    return status;
-}
-
 /* By the solver, of the right-hand side that is there. */
 static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *report)
 {
@@ -140,7 +119,7 @@ static OstStatus solve_equations(const OstAnalysis *analysis, OstSolveReport *re
     const OstSaddle saddle = {analysis->problem->coupling, linear->volume, linear->pressure};
     const OstStatus solved = ost_solver_solve_mixed(solver, &saddle, linear->rhs, linear->v, report);
     if (linear->enclosed)
-        OST_TRY(centre_pressure(saddle.coupling, linear->pressure));
+        OST_TRY(ost_problem_centre_pressure(analysis->problem, linear->pressure));
     return solved;
 }
 
@@ -286,7 +265,7 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
 static OstStatus drive(OstAnalysis *analysis)
 {
     OstLinear *linear = analysis->work;
-    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs));
+    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs, linear->volume));
     OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs)));
     return ost_analysis_take_loading(analysis);
 }

@@ -37,14 +37,14 @@ static OstStatus make_room(Search *search)
     OstContext *ctx = problem->ctx;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
     OstStatus status = OST_NEW(ctx, &search->r_u, 2 * rows);
-    OST_THEN(OST_NEW(ctx, &search->r_p, 2 * (size_t)problem->pressures->count));
+    OST_THEN(OST_NEW(ctx, &search->r_p, (size_t)problem->pressures->owned + ost_problem_pressure_room(problem)));
     OST_THEN(OST_NEW(ctx, &search->load, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(OST_NEW(ctx, &search->internal, 3 * (size_t)problem->mesh->owned_nodes));
     OST_THEN(OST_NEW(ctx, &search->error, 3 * (size_t)problem->mesh->node_count));
     OST_THEN(OST_NEW(ctx, &search->of_tets, 4 * (size_t)problem->mesh->tet_count));
     OST_TRY(ost_agree(ctx, status));
     search->e_u = search->r_u + rows;
-    search->e_p = search->r_p + problem->pressures->count;
+    search->e_p = search->r_p + problem->pressures->owned;
     return OST_SUCCESS;
 }
 
@@ -83,7 +83,7 @@ static OstStatus measure(Search *search, double missing, OstErrors *errors, int 
     OstMaterialField field;
     OstProblem of_error;
     memset(search->e_u, 0, 3 * (size_t)problem->system->matrix->rows * sizeof *search->e_u);
-    memset(search->e_p, 0, (size_t)problem->pressures->count * sizeof *search->e_p);
+    memset(search->e_p, 0, ost_problem_pressure_room(problem) * sizeof *search->e_p);
     OST_TRY(ost_solver_mixed_error(search->solver, missing, &saddle, search->r_u, search->e_u, found));
     if (!*found)
         return OST_SUCCESS;

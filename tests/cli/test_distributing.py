@@ -79,6 +79,24 @@ for load in "distributing: {at: [10, 0.5, 0.5], displacement: [free, free, 0.1]}
         by_ranks.append(report["watched"]["held"]["value"])
     check(max(by_ranks) - min(by_ranks) <= 1e-7, f"{load}: {by_ranks}")
 
+# nu = 1/2, beside a pressure and an end that is given: the force that is found does as much as a load
+BESIDE = "{on: {boundary: zmax}, pressure: 0.1}]\n"
+text = BAR.replace("ratio: 0}", "ratio: 0.5}").replace("[10, 2, 2]", "[5, 1, 1]").replace("[0, 0, 0]}]", "[0.001, 0, 0]}]") \
+    + "large_rotation: off\nsolver: {method: metric}\naccuracy: {relative_residual: 1e-11}\n"
+text = text.replace("output:", "  middle: {displacement: {nearest: [6, 1, 1]}, component: z}\n  energy: strain_energy\noutput:")
+
+
+def values_of(load):
+    finished = run("solve", "bar.yaml", "-q", "--json", "-", folder=write(text + f"loads: [{load}, {BESIDE}"))
+    check(finished.exit_code == 0, finished.errors)
+    return {key: value["value"] for key, value in json.loads(finished.output)["watched"].items()}
+
+
+moved = values_of("{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [free, free, 0.1]}}")
+loaded = values_of(f"{{on: {{boundary: xmax}}, total_force: [0, 0, {moved['force']!r}], at: [10, 0.5, 0.5]}}")
+for key in "middle", "energy":
+    check(abs(moved[key] - loaded[key]) <= 1e-7 * abs(loaded[key]), f"{key} of a moved end: {moved[key]}, of a loaded one {loaded[key]}")
+
 MOVED = "loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]\n"
 for text, words in ((MOVED.replace("displacement: [0.02, free, free]", "displacement: [free, free, free]"), "no component"),
                     (MOVED + "large_rotation: on\n", "leave out 'large_rotation: on'"),

@@ -115,6 +115,19 @@ accuracy: {relative_error: 0.2}
         check(0.7 * error < stated < 1.5 * error and error < 0.2, f"stated {stated}, true {error}")
 
 
+def an_incompressible_bar_follows_its_rigid_end():
+    """As one whose end is given the same displacement, without a link; by factors and by multigrid."""
+    rigid = bar("{at: [4, 0.5, 0.5], displacement: [0.1, 0.05, 0], rotation: [0, 0, 0]}", nu="0.5", method="metric")
+    given = rigid.replace("rigid: {at: [4, 0.5, 0.5], displacement: [0.1, 0.05, 0], rotation: [0, 0, 0]}", "displacement: [0.1, 0.05, 0]")
+    followed, expected = watched(rigid), watched(given.replace("metric", "direct"), ranks=(1,))
+    for name, value in expected.items():
+        near(followed[name], value, 1e-7, f"nu = 1/2: {name}")
+    inside = bar("{at: [4, 0.5, 0.5]}", "{on: {boundary: xmax}, total_force: [0, 2, 0]}", nu="0.5")
+    inside = inside.replace("{boundary: xmax}, rigid", "{box: {min: [2.9, 0, 0], max: [4, 1, 1]}}, rigid")
+    finished, report, _ = solve(inside)  # nothing depends on the pressure of tets that are rigid
+    check(finished.exit_code == 0 and report["checks"]["force_error"] < 1e-8, f"a rigid part: {finished.errors}")
+
+
 def load_cases_have_faces_of_their_own():
     folder = new_folder()
     write(folder, "bar.yaml", LOAD_CASES)
@@ -150,9 +163,14 @@ def tied_parts_pull_as_one():
         brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (fine, fine - 1, fine - 1), "a"),
                                                      ("b", (2, 0, 0), (2, 1, 1), (fine, fine, fine), "b")])
         text = TIED.replace("ORDER", str(order)).replace("LOAD", "traction: [12, 0, 0]")
-        values = watched(text.replace("NU", "0.3"), folder)
-        near(values["tip"], 0.04, limit, f"order {order}: the end of two tied bars")
-        near(values["energy"], 0.24, limit, f"order {order}: their energy")
+        for nu in ("0.3", "0.5")[:order]:
+            values = watched(text.replace("NU", nu), folder)
+            near(values["tip"], 0.04, limit, f"order {order}, nu = {nu}: the end of two tied bars")
+            near(values["energy"], 0.24, limit, f"order {order}, nu = {nu}: their energy")
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (1, 2, 2), "b")])
+    values = watched(text.replace("NU", "0.5"), folder, (1,))
+    near(values["tip"], 0.04, 1e-9, "the end of two bars of nu = 1/2 whose meshes match")
+    near(values["energy"], 0.24, 1e-9, "their energy")
 
 
 GAP = """
@@ -251,6 +269,27 @@ def a_layered_cell_has_the_stiffness_of_a_laminate():
         near(watched(text.replace("STRAIN", "zx: 0.005"), folder, (1,))["shear"], 0.01 * shear, 1e-8, "the shear modulus")
 
 
+def layers_of_nu_half_are_a_laminate_too():
+    """Nothing determines the mean pressure, which is 0: across, the stress is that of the mean shear modulus."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "layers.msh"), [("", (0, 0, 0), (1, 1, 1), (2, 3, 4), ("soft", "stiff"))])
+    text = CELL.replace("ORDER", "2").replace("0.2}", "0.5}").replace("0.3}", "0.5}") + "large_rotation: off\n"
+    g = 100 / 3, 1000 / 3
+    shear = 2 / (1 / g[0] + 1 / g[1])
+    for method in fewer(("direct", "metric")):
+        strained = text.replace("STRAIN", "xx: 0.01, zz: -0.01, zx: 0.005") + f"solver: {{method: {method}}}\n"
+        values = watched(strained, folder, RANKS if method == "metric" else (1,))
+        near(values["along"], 0.01 * sum(g), 1e-7, f"{method}: the stress along")
+        near(values["across"], -0.01 * sum(g), 1e-7, f"{method}: the stress across")
+        near(values["shear"], 0.01 * shear, 1e-7, f"{method}: the shear stress")
+        near(values["energy"], 1e-4 * sum(g) + 0.5e-4 * shear, 1e-7, f"{method}: the energy")
+    finished, report, _ = solve(text.replace("STRAIN", "yz: 0.01"), folder=folder)  # no tet changes its volume
+    check(finished.exit_code == 0, finished.errors)
+    check(abs(report["watched"]["across"]["error"]) < 1e-9, f"the error is known: {report['watched']}")
+    finished, _, _ = solve(text.replace("STRAIN", "zz: 0.01"), folder=folder)
+    check(finished.exit_code == 2 and "xx + yy + zz = 0" in finished.errors, finished.errors)
+
+
 # Two cells, whose lowest and highest edges alone are a pair.
 ENDS = "*NODE\n" + "".join(f"{n + 1}, {(0, 1, 1, 0)[n % 4]}, {(0, 0, 1, 1)[n % 4]}, {n // 4}\n" for n in range(12)) + """
 *ELEMENT, TYPE=C3D8, ELSET=soft
@@ -308,10 +347,12 @@ if not SANITIZED:  # numbers alone
     a_rigid_face_bends_a_bar()
     what_lies_elsewhere_does_not_matter()
     statics_alone_gives_reactions()
+an_incompressible_bar_follows_its_rigid_end()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()
+layers_of_nu_half_are_a_laminate_too()
 what_cannot_be_is_refused()

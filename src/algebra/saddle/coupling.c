@@ -26,6 +26,7 @@ void ost_coupling_destroy(OstCoupling **coupling)
     OST_FREE((*coupling)->diagonal);
     OST_FREE((*coupling)->looseness);
     OST_FREE((*coupling)->schur);
+    ost_halo_destroy(&(*coupling)->own_halo);
     OST_FREE(*coupling);
 }
 

@@ -25,7 +25,8 @@ typedef struct OstCoupling {
     double *diagonal;  /* of the estimate: rows */
     double *looseness; /* rows */
     double *schur;     /* rows */
-    OstHalo *halo;     /* over pressures; the mesh's numbering has it: not owned */
+    OstHalo *halo;     /* over pressures; the mesh's numbering has it, but for: */
+    OstHalo *own_halo; /* where nodes follow others; else NULL */
 } OstCoupling;
 
 void ost_coupling_destroy(OstCoupling **coupling);

@@ -106,11 +106,21 @@ static void list_stiffness(List *list)
         }
 }
 
+/* Does nothing that can move act on a pressure? Rounding is then all that its equation has. */
+static int is_alone(const OstCoupling *coupling, OstLocal i)
+{
+    for (size_t k = 3 * (size_t)coupling->row_start[i]; k < 3 * (size_t)coupling->row_start[i + 1]; k++)
+        if (coupling->value[k] != 0.0)
+            return 0;
+    return 1;
+}
+
 static void list_coupling(List *list)
 {
     const OstCoupling *coupling = list->coupling;
     for (OstLocal i = 0; i < coupling->rows; i++) {
         const double s = list->p_scale[i], loose = coupling->looseness[i] + beside_nothing * coupling->schur[i];
+        const double own = loose + (is_alone(coupling, i) ? coupling->schur[i] : 0.0);
         for (OstLocal k = coupling->row_start[i]; k < coupling->row_start[i + 1]; k++)
             for (int c = 0; c < 3; c++) {
                 const size_t j = 3 * (size_t)coupling->column[k] + (size_t)c;
@@ -121,7 +131,7 @@ static void list_coupling(List *list)
             const OstLocal j = coupling->mass_column[k];
             if (list->p_number[j] >= list->p_number[i])
                 add(&list->entries, list->p_number[i], list->p_number[j],
-                    -s * list->p_scale[j] * loose * coupling->mass[k]);
+                    -s * list->p_scale[j] * (j == i ? own : loose) * coupling->mass[k]);
         }
     }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/batch.h"
+#include "assembly/pressure/link.h"
 #include "assembly/pressure/pressure_space.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -39,10 +40,18 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* The columns of B: those of the system's matrix or, where nodes follow others, local nodes at first. */
+typedef struct Columns {
+    OstLocal count;
+    OstLocal *of_node; /* node_count; -1: none, nothing of the node can move */
+    int *face;         /* node_count: the rigid face that moves the node, from 1, or 0; NULL: there is none */
+    OstRowNumbers rows;
+} Columns;
+
 /* What the rows of B, or of M, list of a tet. */
 typedef struct Pattern {
     const OstPressureSpace *space;
-    const OstSystem *system; /* NULL: the rows of M */
+    const Columns *columns; /* NULL: the rows of M */
     const PressureTets *tets;
     OstLocal *seen; /* the last row that had this column */
 } Pattern;
@@ -51,9 +60,9 @@ static int columns_of_tet(const Pattern *pattern, OstLocal tet, OstLocal columns
 {
     const OstLocal *pressures = pattern->space->of_tet + VERTICES * (size_t)tet;
     const OstLocal *nodes = ost_mesh_nodes_of(pattern->space->mesh, tet);
-    const int count = pattern->system ? NODES : VERTICES;
+    const int count = pattern->columns ? NODES : VERTICES;
     for (int a = 0; a < count; a++)
-        columns[a] = pattern->system ? pattern->system->row_of_node[nodes[a]] : pressures[a];
+        columns[a] = pattern->columns ? pattern->columns->of_node[nodes[a]] : pressures[a];
     return count;
 }
 
@@ -78,15 +87,16 @@ static OstLocal list_row(const Pattern *pattern, OstLocal row, OstLocal *columns
     return count;
 }
 
-static OstStatus make_rows(const OstPressureSpace *space, const OstSystem *system, const PressureTets *tets,
-                           OstLocal rows, OstLocal columns, OstLocal **start, OstLocal **column)
+static OstStatus make_rows(const OstPressureSpace *space, const Columns *columns, const PressureTets *tets,
+                           OstLocal rows, OstLocal **start, OstLocal **column)
 {
     OstContext *ctx = space->ctx;
-    Pattern pattern = {space, system, tets, NULL};
-    OstStatus status = OST_NEW(ctx, &pattern.seen, columns);
+    Pattern pattern = {space, columns, tets, NULL};
+    const OstLocal width = columns ? columns->count : space->count;
+    OstStatus status = OST_NEW(ctx, &pattern.seen, width);
     OST_THEN(OST_NEW(ctx, start, rows + 1));
     for (int fill = 0; fill < 2 && status == OST_SUCCESS; fill++) {
-        for (OstLocal c = 0; c < columns; c++)
+        for (OstLocal c = 0; c < width; c++)
             pattern.seen[c] = -1;
         OstGlobal entries = 0;
         for (OstLocal row = 0; row < rows && status == OST_SUCCESS; row++) {
@@ -123,26 +133,28 @@ static int pair_of(int v, int w)
     return v <= w ? ost_pair_index(VERTICES, v, w) : ost_pair_index(VERTICES, w, v);
 }
 
-/* Has a tet no node that can move? */
-static int has_no_free_node(const OstSystem *system, const OstLocal *nodes)
+/* Does a tet keep its volume, as none of its nodes can move, or all move with one rigid face? */
+static int keeps_volume(const Columns *columns, const OstLocal *nodes)
 {
-    for (int a = 0; a < NODES; a++)
-        if (system->row_of_node[nodes[a]] >= 0)
-            return 0;
-    return 1;
+    const int face = columns->face ? columns->face[nodes[0]] : 0;
+    int fixed = 1, rigid = face > 0;
+    for (int a = 0; a < NODES; a++) {
+        fixed &= columns->of_node[nodes[a]] < 0;
+        rigid &= columns->face && columns->face[nodes[a]] == face;
+    }
+    return fixed || rigid;
 }
 
-static int any_has_no_free_node(const OstPressureSpace *space, const OstSystem *system)
+static int any_keeps_volume(const OstPressureSpace *space, const Columns *columns)
 {
     const OstMesh *mesh = space->mesh;
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++)
-        if (space->of_tet[VERTICES * (size_t)tet] >= 0 && has_no_free_node(system, ost_mesh_nodes_of(mesh, tet)))
+        if (space->of_tet[VERTICES * (size_t)tet] >= 0 && keeps_volume(columns, ost_mesh_nodes_of(mesh, tet)))
             return 1;
     return 0;
 }
 
-/* Adds a tet's part of a row of M. A tet without a free node changes no volume: of the Schur complement it has C alone.
- */
+/* Adds a tet's part of a row of M. Of the Schur complement a tet that keeps its volume has C alone. */
 static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal *pressures, int is_fixed,
                      OstCoupling *coupling)
 {
@@ -158,15 +170,15 @@ static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal 
 }
 
 /* Adds B's part of a tet, and M's. */
-static void add_tet(const OstPressureSpace *space, const OstSystem *system, const OstBatch *batch, int slot,
+static void add_tet(const OstPressureSpace *space, const Columns *columns, const OstBatch *batch, int slot,
                     const TetCoupling *of_tet, int with_mass, OstCoupling *coupling)
 {
     const OstLocal *pressures = space->of_tet + VERTICES * (size_t)batch->tet[slot];
-    const int held = with_mass && has_no_free_node(system, batch->node[slot]);
+    const int held = with_mass && keeps_volume(columns, batch->node[slot]);
     for (int v = 0; v < VERTICES && pressures[v] >= 0; v++) {
         const OstLocal row = pressures[v];
-        for (int a = 0; a < NODES; a++) {
-            const OstLocal column = system->row_of_node[batch->node[slot][a]];
+        for (int a = 0; a < NODES && !held; a++) {
+            const OstLocal column = columns->of_node[batch->node[slot][a]];
             if (column < 0)
                 continue;
             double *value = coupling->value + 3 * (size_t)find(coupling->row_start, coupling->column, row, column);
@@ -178,7 +190,7 @@ static void add_tet(const OstPressureSpace *space, const OstSystem *system, cons
     }
 }
 
-static void add_tets(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+static void add_tets(const OstPressureSpace *space, const Columns *columns, const OstMaterialField *field,
                      const double *u, int with_mass, OstCoupling *coupling)
 {
     const OstMesh *mesh = space->mesh;
@@ -198,7 +210,7 @@ static void add_tets(const OstPressureSpace *space, const OstSystem *system, con
         } else
             element->coupling(batch.x, &batch.elasticity, of_tets.columns, of_tets.eigen, of_tets.mass);
         for (int slot = 0; slot < batch.count; slot++)
-            add_tet(space, system, &batch, slot, &of_tets, with_mass, coupling);
+            add_tet(space, columns, &batch, slot, &of_tets, with_mass, coupling);
     }
 }
 
@@ -235,8 +247,52 @@ static void find_diagonal(OstCoupling *coupling)
     }
 }
 
-static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                          OstCoupling *coupling)
+/* Nodes that something moves keep their place; those of a rigid face are told apart by its carriers. */
+static OstStatus number_nodes(const OstSystem *system, Columns *columns)
+{
+    const OstLinks *links = system->supports->links;
+    const OstMesh *mesh = system->mesh;
+    columns->count = mesh->node_count;
+    OST_TRY(OST_NEW(system->ctx, &columns->of_node, mesh->node_count));
+    OST_TRY(OST_NEW(system->ctx, &columns->face, mesh->node_count));
+    for (OstLocal n = 0; n < mesh->node_count; n++) {
+        const OstLink *link = ost_link_of(links, n);
+        OstRowParts parts;
+        ost_row_parts(&columns->rows, n, &parts);
+        columns->of_node[n] = -1;
+        for (int k = 0; k < parts.count; k++)
+            if (parts.row[k] >= 0)
+                columns->of_node[n] = n;
+        for (int f = 0; f < links->face_count && link && link->count > 0; f++)
+            for (int k = 0; k < 2; k++)
+                if (link->leader[0].number == links->face[f].carrier[k])
+                    columns->face[n] = f + 1;
+    }
+    return OST_SUCCESS;
+}
+
+/* Collective. */
+static OstStatus find_columns(const OstSystem *system, Columns *columns)
+{
+    if (!system->supports->links) {
+        *columns = (Columns){.count = system->matrix->columns, .of_node = system->row_of_node};
+        return OST_SUCCESS;
+    }
+    OST_TRY(ost_row_numbers_create(system->supports->links, system->row_of_node, system->matrix->first_row,
+                                   &columns->rows));
+    return ost_agree(system->ctx, number_nodes(system, columns));
+}
+
+static void clear_columns(const OstSystem *system, Columns *columns)
+{
+    if (columns->of_node != system->row_of_node)
+        OST_FREE(columns->of_node);
+    OST_FREE(columns->face);
+    ost_row_numbers_clear(&columns->rows);
+}
+
+static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system, const Columns *columns,
+                          const OstMaterialField *field, OstCoupling *coupling)
 {
     OstContext *ctx = space->ctx;
     PressureTets tets = {0};
@@ -248,21 +304,20 @@ static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system
                               .global_rows = space->global,
                               .halo = space->halo};
     OST_TRY_DONE(find_tets(space, &tets));
-    OST_TRY_DONE(make_rows(space, system, &tets, space->count, system->matrix->columns, &coupling->row_start,
-                           &coupling->column));
-    OST_TRY_DONE(
-        make_rows(space, NULL, &tets, space->owned, space->count, &coupling->mass_start, &coupling->mass_column));
+    OST_TRY_DONE(make_rows(space, columns, &tets, space->count, &coupling->row_start, &coupling->column));
+    OST_TRY_DONE(make_rows(space, NULL, &tets, space->owned, &coupling->mass_start, &coupling->mass_column));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->value, 3 * (size_t)coupling->row_start[space->count]));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->mass, coupling->mass_start[space->owned]));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->diagonal, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->looseness, space->owned));
     OST_TRY_DONE(OST_NEW(ctx, &coupling->schur, space->owned));
     coupling->estimate = coupling->mass;
-    if (any_has_no_free_node(space, system))
+    if (any_keeps_volume(space, columns))
         OST_TRY_DONE(OST_NEW(ctx, &coupling->estimate, coupling->mass_start[space->owned]));
     find_scales(space, field, coupling);
-    add_tets(space, system, field, NULL, 1, coupling);
-    project(system, coupling);
+    add_tets(space, columns, field, NULL, 1, coupling);
+    if (!system->supports->links)
+        project(system, coupling);
     find_diagonal(coupling);
 done:
     OST_FREE(tets.start);
@@ -274,11 +329,15 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
                                 OstCoupling **coupling)
 {
     OstContext *ctx = space->ctx;
+    Columns columns = {0};
     *coupling = NULL;
     ost_ledger_enter(ctx, OST_EFFECT_MIXED);
-    OstStatus status = OST_NEW(ctx, coupling, 1);
-    OST_THEN(assemble(space, system, field, *coupling));
-    status = ost_agree(ctx, status);
+    OstStatus status = ost_agree(ctx, OST_NEW(ctx, coupling, 1));
+    OST_THEN(find_columns(system, &columns));
+    OST_THEN(ost_agree(ctx, assemble(space, system, &columns, field, *coupling)));
+    if (system->supports->links)
+        OST_THEN(ost_coupling_link(space, system, &columns.rows, *coupling));
+    clear_columns(system, &columns);
     if (status != OST_SUCCESS)
         ost_coupling_destroy(coupling);
     ost_ledger_leave(ctx);
@@ -288,9 +347,12 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
 void ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
                               const double *u, OstCoupling *coupling)
 {
+    const Columns columns = {.count = system->matrix->columns, .of_node = system->row_of_node};
+    if (system->supports->links) /* linear theory alone, of which the coupling is */
+        return;
     ost_ledger_enter(space->ctx, OST_EFFECT_MIXED);
     memset(coupling->value, 0, 3 * (size_t)coupling->row_start[coupling->columns] * sizeof *coupling->value);
-    add_tets(space, system, field, u, 0, coupling);
+    add_tets(space, &columns, field, u, 0, coupling);
     project(system, coupling);
     ost_ledger_leave(space->ctx);
 }

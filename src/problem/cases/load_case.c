@@ -35,11 +35,11 @@ static uint64_t hash_supports(const OstSupports *supports)
     return supports->spring ? ost_hash(hash, 9 * nodes * sizeof *supports->spring, supports->spring) : hash;
 }
 
-/* Linear or not, mixed or not: what is solved in the same way. */
+/* Linear or not: what is solved in the same way. */
 static uint64_t hash_method(const OstEffects *effects, uint64_t hash)
 {
-    const int way[2] = {ost_effect_on(effects, OST_EFFECT_LARGE_ROTATION), ost_effect_on(effects, OST_EFFECT_MIXED)};
-    return ost_hash(hash, sizeof way, way);
+    const int way = ost_effect_on(effects, OST_EFFECT_LARGE_ROTATION);
+    return ost_hash(hash, sizeof way, &way);
 }
 
 OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash)

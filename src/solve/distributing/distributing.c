@@ -18,14 +18,16 @@ typedef struct Motion {
     double given;
     double *force; /* 3 × node_count: of a unit of its force or moment */
     double *v;     /* of the rows: K^-1 of that */
+    double *p;     /* and its pressures, of a mixed form; else NULL */
 } Motion;
 
 typedef struct Search {
     OstProblem *problem;
     OstSolver *solver;
-    const double *rhs;
+    const double *rhs, *volume; /* volume: of the pressures, or NULL */
     int count;
     Motion *motion;
+    double *zero;    /* a right-hand side of the pressures */
     double *u;       /* 3 × node_count */
     double *of_rows; /* 3 × rows */
     double *matrix;  /* count × count */
@@ -43,8 +45,10 @@ static void close_search(Search *search)
     for (int k = 0; search->motion && k < search->count; k++) {
         OST_FREE(search->motion[k].force);
         OST_FREE(search->motion[k].v);
+        OST_FREE(search->motion[k].p);
     }
     OST_FREE(search->motion);
+    OST_FREE(search->zero);
     OST_FREE(search->u);
     OST_FREE(search->of_rows);
     OST_FREE(search->matrix);
@@ -65,7 +69,11 @@ static OstStatus open_search(Search *search)
     for (int k = 0; k < search->count && status == OST_SUCCESS; k++) {
         status = OST_NEW(ctx, &search->motion[k].force, nodes);
         OST_THEN(OST_NEW(ctx, &search->motion[k].v, rows));
+        if (problem->pressures)
+            OST_THEN(OST_NEW(ctx, &search->motion[k].p, ost_problem_pressure_room(problem)));
     }
+    if (problem->pressures)
+        OST_THEN(OST_NEW(ctx, &search->zero, problem->pressures->owned));
     OST_THEN(OST_NEW(ctx, &search->u, nodes));
     OST_THEN(OST_NEW(ctx, &search->of_rows, rows));
     OST_THEN(OST_NEW(ctx, &search->matrix, (size_t)search->count * (size_t)search->count));
@@ -93,14 +101,17 @@ static OstStatus respond(Search *search, int k)
     drive[motion->component] = 1.0;
     OST_TRY(ost_scene_load(problem->scene, motion->load, motion->force));
     OST_TRY(ost_system_take_rows(problem->system, motion->force, search->of_rows));
-    OST_TRY(ost_solver_solve(search->solver, search->of_rows, motion->v, &report));
+    const OstSaddle saddle = {problem->coupling, search->zero, motion->p};
+    OST_TRY(ost_solver_solve_mixed(search->solver, problem->pressures ? &saddle : NULL, search->of_rows, motion->v,
+                                   &report));
     OST_TRY(ost_system_displacement(problem->system, 0.0, motion->v, search->u));
     for (int j = 0; j <= k; j++)
         search->matrix[k * search->count + j] = mean_motion(search, &search->motion[j]);
     return OST_SUCCESS;
 }
 
-/* What the given motions lack under the other loads. K^-1 is symmetric: their displacement need not be solved for. */
+/* What the given motions lack under the other loads. K^-1 is symmetric, also with the pressures: their displacement
+ * need not be solved for. */
 static OstStatus find_lack(Search *search)
 {
     const OstProblem *problem = search->problem;
@@ -111,6 +122,8 @@ static OstStatus find_lack(Search *search)
         double sum = mean_motion(search, &search->motion[k]);
         for (size_t i = 0; i < rows; i++)
             sum += search->motion[k].v[i] * search->rhs[i];
+        for (OstLocal i = 0; search->volume && i < problem->pressures->owned; i++)
+            sum += search->motion[k].p[i] * search->volume[i];
         search->size[k] = -sum;
     }
     OST_TRY(ost_sum(problem->ctx, search->count, search->size));
@@ -166,9 +179,9 @@ static OstStatus apply(Search *search)
     return OST_SUCCESS;
 }
 
-OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs)
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs, const double *volume)
 {
-    Search search = {.problem = problem, .solver = solver, .rhs = rhs};
+    Search search = {.problem = problem, .solver = solver, .rhs = rhs, .volume = volume};
     ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
     OstStatus status = open_search(&search);
     OST_THEN(find_sizes(&search));

@@ -13,9 +13,10 @@
 /* Local. Has the problem such a coupling? */
 int ost_distributing_any(const OstProblem *problem);
 
-/* Collective. Finds the forces of all of them, and adds them to the problem's load. `rhs`: the right-hand side of the
- * other loads. Raises OST_INVALID_INPUT where two couplings contradict each other or a support. */
-OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs);
+/* Collective. Finds the forces of all of them, and adds them to the problem's load. `rhs` and, of a mixed form,
+ * `volume` (else NULL): the right-hand sides of the other loads. Raises OST_INVALID_INPUT where two couplings
+ * contradict each other or a support. */
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs, const double *volume);
 
 /* Local. Takes the forces of an earlier solve off the load. */
 void ost_distributing_forget(OstProblem *problem);

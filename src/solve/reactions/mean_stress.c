@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "case/plan.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/together/together.h"
 #include "solve/reactions/reactions.h"
@@ -88,24 +89,27 @@ static OstStatus find_kept(void *common, int count, void *const *request)
     return OST_SUCCESS;
 }
 
-/* What the solve left out of balance works on z as on the mean; a mixed form is solved to its residual. */
-static OstStatus find_missing(const Wanted *wanted, const double *imbalance, double *missing)
+/* What the solve left out of balance works on z as on the mean: of forces, and of a mixed form's `volume`, or NULL. */
+static OstStatus find_missing(const Wanted *wanted, const double *imbalance, const double *volume, double *missing)
 {
-    const double *z = ost_adjoint_displacement(wanted->adjoint);
+    const double *z = ost_adjoint_displacement(wanted->adjoint), *p = ost_adjoint_pressure(wanted->adjoint);
     *missing = 0.0;
-    for (size_t i = 0; imbalance && i < 3 * (size_t)wanted->problem->mesh->owned_nodes; i++)
+    for (size_t i = 0; i < 3 * (size_t)wanted->problem->mesh->owned_nodes; i++)
         *missing -= z[i] * imbalance[i];
+    for (OstLocal i = 0; volume && i < wanted->problem->pressures->owned; i++)
+        *missing -= p[i] * volume[i];
     return ost_sum(wanted->problem->ctx, 1, missing);
 }
 
-static OstStatus find_mean(Wanted *wanted, const double *imbalance, OstReactions *kept, OstWatchedReaction *found)
+static OstStatus find_mean(Wanted *wanted, const double *imbalance, const double *volume, OstReactions *kept,
+                           OstWatchedReaction *found)
 {
     OstContext *ctx = wanted->problem->ctx;
     OstStatus status = kept ? ost_together(ctx, find_kept, OST_MOST_TOGETHER, kept, wanted) : OST_SUCCESS;
     if (!wanted->is_kept)
         OST_THEN(create(wanted));
     if (wanted->adjoint) {
-        OST_THEN(find_missing(wanted, imbalance, &found->missing));
+        OST_THEN(find_missing(wanted, imbalance, volume, &found->missing));
         OST_THEN(ost_adjoint_error(wanted->adjoint, wanted->estimate, wanted->t, wanted->u, wanted->tet_error,
                                    &found->error));
         found->error = -found->error;
@@ -116,15 +120,32 @@ static OstStatus find_mean(Wanted *wanted, const double *imbalance, OstReactions
     return status;
 }
 
+/* What u leaves of the second equation of a mixed form; NULL without one. */
+static OstStatus find_volume(const OstProblem *problem, double t, const double *u, double **volume)
+{
+    *volume = NULL;
+    if (!problem->pressures)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(problem->ctx, volume, problem->pressures->owned);
+    OST_THEN(ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR,
+                                 ost_problem_eigen_share(problem, t), u, *volume, NULL));
+    return ost_agree(problem->ctx, status);
+}
+
 OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
                                  const double *u, const double *imbalance, const double *tet_error, OstReactions *kept,
                                  OstWatchedReaction *found)
 {
     const OstCase *c = problem->scene->c;
-    for (int w = 0; w < c->watch_count && have_adjoint(problem); w++) {
+    double *volume = NULL;
+    if (!have_adjoint(problem))
+        return OST_SUCCESS;
+    OstStatus status = find_volume(problem, t, u, &volume);
+    for (int w = 0; w < c->watch_count && status == OST_SUCCESS; w++) {
         Wanted wanted = {problem, estimate, solver, t, u, &c->watches[w], NULL, 0, tet_error};
         if (ost_watch_is_linear_mean(wanted.watch))
-            OST_TRY(find_mean(&wanted, problem->pressures ? NULL : imbalance, kept, &found[w]));
+            status = find_mean(&wanted, imbalance, volume, kept, &found[w]);
     }
-    return OST_SUCCESS;
+    OST_FREE(volume);
+    return status;
 }
