@@ -495,7 +495,7 @@ OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, doubl
     for (size_t i = 0; i < unknowns; i++)
         rhs[i] *= t;
     if (problem->timed_count > 0)
-        OST_TRY(OST_NEW(problem->ctx, &timed, unknowns));
+        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &timed, unknowns)));
     OstStatus status = OST_SUCCESS;
     for (int k = 1; k <= problem->timed_count && status == OST_SUCCESS; k++) {
         status = ost_problem_function_right_hand_side(problem, k, timed);
