@@ -4,6 +4,7 @@
 #include "adapt/stage.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 
 #include <math.h>
@@ -49,7 +50,7 @@ static const double most_alike = 0.9, flat = 0.05, least_missed = 0.7, most_miss
 static OstStatus seconds_since(OstContext *ctx, double start, double *seconds)
 {
     *seconds = ost_seconds() - start;
-    return OST_MPI(ctx, MPI_Bcast(seconds, 1, MPI_DOUBLE, 0, ost_comm(ctx)));
+    return ost_broadcast(ctx, sizeof *seconds, seconds);
 }
 
 /* Of the last level, and of the adjoint problems of watched reactions that it is solved for if it stays the last: each

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "formats/serial/formats.h"
 
 #include <errno.h>
@@ -423,20 +424,17 @@ static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size
 OstStatus ost_case_bytes(OstContext *ctx, const char *path, char **bytes, size_t *size)
 {
     OstStatus status = OST_SUCCESS;
-    OstGlobal length = 0;
     *bytes = NULL;
     *size = 0;
     ost_ledger_enter(ctx, OST_LEDGER_CASE);
     if (ost_rank(ctx) == 0)
         status = read_file(ctx, path, bytes, size);
     OST_TRY_DONE(ost_agree(ctx, status));
-    length = (OstGlobal)*size;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&length, 1, MPI_INT64_T, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, sizeof *size, size));
     if (ost_rank(ctx) != 0)
-        status = OST_NEW(ctx, bytes, length);
+        status = OST_NEW(ctx, bytes, *size);
     OST_TRY_DONE(ost_agree(ctx, status));
-    *size = (size_t)length;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(*bytes, (int)length, MPI_BYTE, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, *size, *bytes));
 done:
     if (status != OST_SUCCESS)
         OST_FREE(*bytes);

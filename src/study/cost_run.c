@@ -2,6 +2,7 @@
 #include "study/cost.h"
 
 #include "core/error.h"
+#include "core/parallel/gather.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -95,7 +96,7 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     double bytes, elapsed = ost_seconds() - start;
     predict(cost, run, &run->predicted_seconds, &bytes);
     bytes *= memory_beside;
-    OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
+    OST_TRY(ost_broadcast(cost->ctx, sizeof elapsed, &elapsed));
     const double until = seconds_until(cost, run, elapsed);
     const int is_late = run->accuracy != 0.0 && elapsed >= variants->max_seconds;
     const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > until;
