@@ -9,6 +9,7 @@
 #include "core/memory.h"
 #include "core/parallel/gather.h"
 #include "formats/serial/formats.h"
+#include "formats/serial/input_file.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -16,13 +17,6 @@
 
 /* What messages call a case that comes from there. */
 static const char standard_input[] = "stdin";
-
-int ost_has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path);
-    const size_t tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
 
 OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text)
 {

@@ -3,6 +3,7 @@
 #include "case/yaml/message.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/input_file.h"
 #include "mesh/label_ranges.h"
 
 #include <string.h>

@@ -55,9 +55,6 @@ OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSe
 OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text);
 OstStatus ost_read_path(const OstYaml *yaml, const OstYamlNode *node, char **path);
 
-/* Does a path end in `ending`, in upper or lower case? */
-int ost_has_ending(const char *path, const char *ending);
-
 void ost_time_table_release(OstTimeTable *table);
 void ost_axes_spec_release(OstAxesSpec *axes);
 void ost_selection_release(OstSelection *selection);
