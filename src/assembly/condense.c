@@ -174,21 +174,20 @@ static OstStatus list_ghosts(Condensation *c)
 {
     const OstSystem *whole = c->system->whole;
     const OstLocal owned = c->system->mesh->owned_nodes;
-    OstLocal listed = 0;
     const OstLocal most = c->count + (whole->matrix->columns - whole->matrix->rows) + (c->links->slots - owned);
     OST_TRY(OST_NEW(c->system->ctx, &c->ghost, most));
     for (OstLocal i = 0; i < c->count; i++)
         if (!is_mine(c, c->entry[i].column))
-            c->ghost[listed++] = c->entry[i].column;
+            c->ghost[c->ghosts++] = c->entry[i].column;
     for (OstLocal column = whole->matrix->rows; column < whole->matrix->columns; column++) {
         const OstGlobal row = c->rows.of_node[whole->node_of_row[column]];
         if (row >= 0)
-            c->ghost[listed++] = row;
+            c->ghost[c->ghosts++] = row;
     }
     for (OstLocal slot = owned; slot < c->links->slots; slot++)
         if (c->rows.of_leader[slot] >= 0)
-            c->ghost[listed++] = c->rows.of_leader[slot];
-    c->ghosts = ost_numbers_sort(listed, c->ghost);
+            c->ghost[c->ghosts++] = c->rows.of_leader[slot];
+    c->ghosts = ost_numbers_sort(c->ghosts, c->ghost);
     return OST_SUCCESS;
 }
 

@@ -211,8 +211,7 @@ OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialF
         status = OST_NEW(system->ctx, &total, count);
     for (size_t i = 0; i < count && status == OST_SUCCESS; i++)
         total[i] += force[i];
-    if (system->supports->links)
-        status = ost_agree(system->ctx, status);
+    status = ost_agree(system->ctx, status);
     OST_THEN(ost_system_take_rows(system, total, rhs));
     OST_FREE(total);
     return status;

@@ -66,7 +66,7 @@ OstStatus ost_system_take_rows(const OstSystem *system, const double *force, dou
 /* Collective, a step of ost_system_fill. Makes the matrix T' K T from K of all nodes, where nodes follow others. */
 OstStatus ost_system_condense(OstSystem *system);
 
-/* Local; collective where nodes follow others. Right-hand side of the rows, P (force - K g + share × B'C e0): `force`
+/* Collective. Right-hand side of the rows, P (force - K g + share × B'C e0): `force`
  * are the loads on local nodes (3 × node_count, complete on owned nodes); K g is computed only on tets that touch a
  * node with g != 0, and the last term only for an eigenstrain e0. `rhs` has 3 × matrix->rows numbers. */
 OstStatus ost_system_right_hand_side(const OstSystem *system, const OstMaterialField *field, double share,

@@ -7,7 +7,9 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "formats/serial/formats.h"
+#include "formats/serial/input_file.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,13 +17,6 @@
 
 /* What messages call a case that comes from there. */
 static const char standard_input[] = "stdin";
-
-int ost_has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path);
-    const size_t tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
 
 OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text)
 {
@@ -99,7 +94,7 @@ static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
                              "%s:%d: a distributing coupling with a given motion is solved by linear theory, on a body "
-                             "that is held elsewhere; leave out '%s'",
+                             "that is constrained elsewhere; leave out '%s'",
                              yaml->path, c->loads[i].line, without);
         const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)
@@ -423,20 +418,17 @@ static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size
 OstStatus ost_case_bytes(OstContext *ctx, const char *path, char **bytes, size_t *size)
 {
     OstStatus status = OST_SUCCESS;
-    OstGlobal length = 0;
     *bytes = NULL;
     *size = 0;
     ost_ledger_enter(ctx, OST_LEDGER_CASE);
     if (ost_rank(ctx) == 0)
         status = read_file(ctx, path, bytes, size);
     OST_TRY_DONE(ost_agree(ctx, status));
-    length = (OstGlobal)*size;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&length, 1, MPI_INT64_T, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, sizeof *size, size));
     if (ost_rank(ctx) != 0)
-        status = OST_NEW(ctx, bytes, length);
+        status = OST_NEW(ctx, bytes, *size);
     OST_TRY_DONE(ost_agree(ctx, status));
-    *size = (size_t)length;
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(*bytes, (int)length, MPI_BYTE, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, *size, *bytes));
 done:
     if (status != OST_SUCCESS)
         OST_FREE(*bytes);

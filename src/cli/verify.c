@@ -6,6 +6,7 @@
 #include "cli/installed.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -143,8 +144,8 @@ static OstStatus find_cases(OstContext *ctx, const Arguments *arguments, CaseLis
     if (status == OST_SUCCESS && ost_rank(ctx) == 0)
         status = list_cases(ctx, arguments, list);
     OST_TRY(ost_agree(ctx, status));
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(&list->count, 1, MPI_INT, 0, ost_comm(ctx))));
-    return OST_MPI(ctx, MPI_Bcast(list->path, list->count * OST_LONGEST_PATH, MPI_CHAR, 0, ost_comm(ctx)));
+    OST_TRY(ost_broadcast(ctx, sizeof list->count, &list->count));
+    return ost_broadcast(ctx, (size_t)list->count * sizeof *list->path, list->path);
 }
 
 /* --- where reports go --- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "formats/serial/formats.h"
 #include "formats/serial/line_reader.h"
 #include "mesh/label_ranges.h"
@@ -79,9 +80,9 @@ OstStatus ost_vertex_list_read(OstContext *ctx, const char *path, OstGlobal *cou
     if (ost_rank(ctx) == 0)
         status = read_list(ctx, path, &list);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(&list.count, 1, MPI_INT64_T, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, sizeof list.count, &list.count));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &list.range, list.count)));
-    OST_TRY_DONE(OST_MPI(ctx, MPI_Bcast(list.range, 2 * (int)list.count, MPI_INT64_T, 0, ost_comm(ctx))));
+    OST_TRY_DONE(ost_broadcast(ctx, (size_t)list.count * sizeof *list.range, list.range));
 done:
     if (status != OST_SUCCESS) {
         OST_FREE(list.range);

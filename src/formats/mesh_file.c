@@ -3,13 +3,13 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "formats/mesh_formats.h"
 #include "formats/vtk/vtk.h"
 #include "formats/vtkhdf/vtkhdf.h"
 #include "mesh/distribution/share.h"
 
 #include <ctype.h>
-#include <limits.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -20,11 +20,6 @@ void ost_file_materials_destroy(OstFileMaterials **materials)
         return;
     OST_FREE((*materials)->material, (*materials)->axes);
     OST_FREE(*materials);
-}
-
-static OstStatus broadcast(OstContext *ctx, void *data, size_t bytes)
-{
-    return OST_MPI(ctx, MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, ost_comm(ctx)));
 }
 
 static OstStatus create_materials(OstContext *ctx, int count, OstFileMaterials **materials)
@@ -41,15 +36,12 @@ static OstStatus share_materials(OstContext *ctx, OstFileMaterials **materials)
 {
     OstStatus status = OST_SUCCESS;
     int count = *materials ? (*materials)->count : 0;
-    OST_TRY_DONE(broadcast(ctx, &count, sizeof count));
-    if ((size_t)count > INT_MAX / sizeof(OstMaterial))
-        status = OST_RAISE(ctx, OST_LIMIT_EXCEEDED, "%d materials in a mesh file, at most %zu can be sent", count,
-                           INT_MAX / sizeof(OstMaterial));
-    else if (!*materials)
+    OST_TRY_DONE(ost_broadcast(ctx, sizeof count, &count));
+    if (!*materials)
         status = create_materials(ctx, count, materials);
     OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(broadcast(ctx, (*materials)->material, (size_t)count * sizeof(OstMaterial)));
-    OST_TRY_DONE(broadcast(ctx, (*materials)->axes, 9 * (size_t)count * sizeof(double)));
+    OST_TRY_DONE(ost_broadcast(ctx, (size_t)count * sizeof(OstMaterial), (*materials)->material));
+    OST_TRY_DONE(ost_broadcast(ctx, 9 * (size_t)count * sizeof(double), (*materials)->axes));
 done:
     if (status != OST_SUCCESS)
         ost_file_materials_destroy(materials);
@@ -214,7 +206,7 @@ static OstStatus read_field(OstContext *ctx, const char *path, const char *name,
             "%s: no fields are read from a %s file, and '%s' is asked for; use .vtu, .vtk, .msh or .vtkhdf", path,
             format->ending, name);
     OST_TRY(ost_agree(ctx, ost_rank(ctx) == 0 ? read_field_alone(ctx, format, path, name, use, chunk) : OST_SUCCESS));
-    OST_TRY(broadcast(ctx, &chunk->fields, sizeof chunk->fields));
+    OST_TRY(ost_broadcast(ctx, sizeof chunk->fields, &chunk->fields));
     return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
 }
 

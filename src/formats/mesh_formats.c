@@ -3,11 +3,11 @@
 
 #include "formats/exchange/exchange.h"
 #include "formats/exodus/exodus.h"
+#include "formats/serial/input_file.h"
 #include "formats/vtk/vtk.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 const OstMeshFormat ost_mesh_formats[] = {
@@ -210,12 +210,6 @@ static const struct {
 
 enum { LONGEST_NAME = 512 };
 
-static int has_ending(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
-
 /* The name without its folders; as a shell takes it outside of quotes, blanks follow a backslash. */
 static void name_of(const char *path, int quoted, char *name, size_t size)
 {
@@ -239,7 +233,7 @@ void ost_mesh_format_advice(const char *path, char *text, size_t size)
 {
     char name[LONGEST_NAME];
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
-        if (has_ending(path, others[o].ending)) {
+        if (ost_has_ending(path, others[o].ending)) {
             const int used = snprintf(text, size, "files of %s are not read; ", others[o].what);
             name_of(path, others[o].way <= BY_MESHIO_TECPLOT, name, sizeof name);
             const int stem = others[o].way == FROM_ELMER ? 0 : (int)(strlen(name) - strlen(others[o].ending));

@@ -127,13 +127,15 @@ static OstStatus find_meetings(const OstMesh *mesh, const OstComponents *compone
 static OstStatus find_leading(const OstMesh *mesh, const OstLinks *links, const NodeComponents *of, OstLocal **leading)
 {
     OstLocal *of_slot = NULL;
-    OST_TRY(OST_NEW(mesh->ctx, leading, links->count));
-    OST_TRY(OST_NEW(mesh->ctx, &of_slot, links->slots));
+    OstStatus status = OST_NEW(mesh->ctx, leading, links->count);
+    OST_THEN(OST_NEW(mesh->ctx, &of_slot, links->slots));
+    OST_TRY_DONE(ost_agree(mesh->ctx, status));
     for (OstLocal n = 0; n < mesh->owned_nodes && of->lowest; n++)
         of_slot[n] = of->lowest[n];
-    const OstStatus status = ost_halo_import(links->halo, sizeof *of_slot, of_slot);
+    OST_TRY_DONE(ost_halo_import(links->halo, sizeof *of_slot, of_slot));
     for (OstLocal i = 0; i < links->count; i++)
         (*leading)[i] = links->link[i].count > 0 ? of_slot[links->link[i].slot[0]] : -1;
+done:
     OST_FREE(of_slot);
     return status;
 }
@@ -346,7 +348,7 @@ static OstStatus list_mine(const OstMesh *mesh, const OstSupports *supports, con
     BedConditions *of_beds = NULL;
     OstLocal *leading = NULL;
     OstStatus status = OST_SUCCESS;
-    OST_TRY_DONE(find_meetings(mesh, components, &of));
+    OST_TRY_DONE(ost_agree(mesh->ctx, find_meetings(mesh, components, &of)));
     if (supports->links) {
         OST_TRY_DONE(find_leading(mesh, supports->links, &of, &leading));
         OST_TRY_DONE(meet_at_links(mesh, supports->links, leading, &of));

@@ -25,10 +25,11 @@ static json_t *steps_json(const OstSolveReport *report)
     json_t *steps = json_array();
     for (int s = 0; s < report->steps; s++) {
         const OstSolveStep *step = &report->step[s];
-        json_array_append_new(steps, json_pack("{s:s, s:i, s:f, s:f, s:f, s:o}", "strategy",
-                                               ost_method_name(step->method), "iterations", step->iterations, "factor",
-                                               step->factor, "relative_residual", step->relative_residual, "seconds",
-                                               step->seconds, "outcome", ost_json_text(step->outcome)));
+        json_array_append_new(steps,
+                              json_pack("{s:s, s:i, s:o, s:o, s:f, s:o}", "strategy", ost_method_name(step->method),
+                                        "iterations", step->iterations, "factor", ost_json_number(step->factor),
+                                        "relative_residual", ost_json_number(step->relative_residual), "seconds",
+                                        step->seconds, "outcome", ost_json_text(step->outcome)));
     }
     return steps;
 }

@@ -52,7 +52,7 @@ const char *ost_problem_name(const OstProblem *problem);
 /* Local. Goes on with another formulation on the way to the answer, whose formulation stays. */
 void ost_problem_take_formulation(OstProblem *problem, OstFormulation formulation);
 
-/* Local. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
+/* Collective. The right-hand side P (load(t) - K g(t)) of a linear problem, g the prescribed displacements, after
  * ost_problem_stiffness. `rhs` has 3 × rows numbers. */
 OstStatus ost_problem_right_hand_side(const OstProblem *problem, double t, double *rhs);
 
@@ -93,7 +93,7 @@ void ost_problem_add_load(const OstProblem *problem, int function, double factor
 /* Local. factor × this rank's part of the work function of that load (ost_problem_load_work). */
 double ost_problem_work(const OstProblem *problem, int function, double factor, const double *u);
 
-/* Local. Its right-hand side P (f - K g), with the eigenstrain's if it follows this function, of a linear problem,
+/* Collective. Its right-hand side P (f - K g), with the eigenstrain's if it follows this function, of a linear problem,
  * after ost_problem_stiffness; 3 × rows numbers. */
 OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int function, double *rhs);
 

@@ -92,7 +92,7 @@ OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int fu
     const OstSystem system = system_of(problem, function);
     const double share = function == problem->eigen_function ? 1.0 : 0.0;
     double *force = NULL;
-    OST_TRY(OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &force, 3 * (size_t)problem->mesh->owned_nodes)));
     ost_problem_add_load(problem, function, 1.0, NULL, force);
     const OstStatus status = ost_system_right_hand_side(&system, problem->field, share, force, rhs);
     OST_FREE(force);

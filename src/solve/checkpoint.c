@@ -3,6 +3,7 @@
 #include "core/hash.h"
 #include "core/index_map.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "core/write_aside.h"
 #include "problem/identity.h"
 #include "solve/path_data.h"
@@ -303,11 +304,6 @@ static OstStatus get(OstContext *ctx, const char *name, FILE *file, size_t size,
     return fread(bytes, 1, size, file) == size ? OST_SUCCESS : raise_damaged(ctx, name, "it ends too early");
 }
 
-static OstStatus share(OstContext *ctx, size_t size, void *bytes)
-{
-    return OST_MPI(ctx, MPI_Bcast(bytes, (int)size, MPI_BYTE, 0, ost_comm(ctx)));
-}
-
 /* Room for what `header` says will come. */
 static OstStatus make_room(OstPath *path, const Header *header)
 {
@@ -337,7 +333,7 @@ static OstStatus get_reports(OstPath *path, const char *name, FILE *file)
                        {(size_t)linear->count * sizeof *linear->norm, linear->norm}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
         OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, items[i].size, items[i].bytes) : OST_SUCCESS));
-        OST_TRY(share(ctx, items[i].size, items[i].bytes));
+        OST_TRY(ost_broadcast(ctx, items[i].size, items[i].bytes));
     }
     return OST_SUCCESS;
 }
@@ -377,7 +373,7 @@ static OstStatus get_records(const OstPath *path, const char *name, FILE *file, 
         const int count = mesh->global_nodes - first < NODES ? (int)(mesh->global_nodes - first) : NODES;
         const size_t bytes = (size_t)count * record_size(arrays);
         OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, bytes, records) : OST_SUCCESS));
-        OST_TRY(share(ctx, bytes, records));
+        OST_TRY(ost_broadcast(ctx, bytes, records));
         unpack(nodes, arrays, count, records, &taken);
     }
     return ost_agree(ctx, taken == mesh->node_count ? OST_SUCCESS
@@ -416,7 +412,7 @@ static OstStatus read_file(OstPath *path, const char *name, FILE *file)
     Header expected, header;
     OST_TRY(describe(path, &expected));
     OST_TRY(ost_agree(ctx, file ? get_head(path, name, file, &expected, &header) : OST_SUCCESS));
-    OST_TRY(share(ctx, sizeof header, &header));
+    OST_TRY(ost_broadcast(ctx, sizeof header, &header));
     OST_TRY(make_room(path, &header));
     path->done = header.done;
     OST_TRY(get_reports(path, name, file));
@@ -437,7 +433,7 @@ OstStatus ost_path_resume(OstPath *path, const char *name)
             status = OST_RAISE(ctx, OST_FILE_FAILED, "cannot read the checkpoint '%s': %s", name, strerror(errno));
     }
     status = ost_agree(ctx, status);
-    OST_THEN(OST_MPI(ctx, MPI_Bcast(&found, 1, MPI_INT, 0, ost_comm(ctx))));
+    OST_THEN(ost_broadcast(ctx, sizeof found, &found));
     if (found)
         OST_THEN(read_file(path, name, file));
     if (file)

@@ -63,7 +63,7 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     ost_distributing_forget(problem);
-    OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, 1.0, linear->rhs)));
+    OST_TRY(ost_problem_right_hand_side(problem, 1.0, linear->rhs));
     if (linear->volume) {
         OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
         OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));
@@ -266,7 +266,7 @@ static OstStatus drive(OstAnalysis *analysis)
 {
     OstLinear *linear = analysis->work;
     OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs, linear->volume));
-    OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs)));
+    OST_TRY(ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs));
     return ost_analysis_take_loading(analysis);
 }
 
@@ -299,7 +299,7 @@ OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *befor
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     double square = 0.0;
-    OST_TRY(ost_agree(analysis->ctx, ost_problem_function_right_hand_side(problem, function, linear->rhs)));
+    OST_TRY(ost_problem_function_right_hand_side(problem, function, linear->rhs));
     for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
         square += linear->rhs[i] * linear->rhs[i];
     OST_TRY(ost_sum(analysis->ctx, 1, &square));
@@ -340,7 +340,7 @@ OstStatus ost_linear_work(const OstAnalysis *analysis, double t, const double *d
     const OstSystem *system = problem->system;
     OstLinear *linear = analysis->work;
     *work = 0.0;
-    OST_TRY(ost_agree(analysis->ctx, ost_problem_right_hand_side(problem, t, linear->rhs)));
+    OST_TRY(ost_problem_right_hand_side(problem, t, linear->rhs));
     for (OstLocal row = 0; row < system->matrix->rows; row++)
         *work += ost_dot3(linear->rhs + 3 * (size_t)row, displacement + 3 * (size_t)system->node_of_row[row]);
     return ost_sum(analysis->ctx, 1, work);

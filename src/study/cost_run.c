@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
 
+#include "adapt/adapt.h"
 #include "core/error.h"
+#include "core/parallel/gather.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,9 +14,6 @@ static const double least_growth = 8.0, most_growth = 32.0;
 
 /* Order 2 has the nodes of order 1 on the refined mesh, and about three times as many entries per row. */
 static const double denser_rows = 3.0;
-
-/* Memory of the process, with libraries, over that of Orthostat's own arrays. */
-static const double memory_beside = 2.0;
 
 /* The finished run to predict another from: of its own order rather than the one below, on the finest mesh, of the same
  * tolerance; else the slowest. */
@@ -94,8 +93,8 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     const OstCostVariants *variants = &cost->variants;
     double bytes, elapsed = ost_seconds() - start;
     predict(cost, run, &run->predicted_seconds, &bytes);
-    bytes *= memory_beside;
-    OST_TRY(OST_MPI(cost->ctx, MPI_Bcast(&elapsed, 1, MPI_DOUBLE, 0, ost_comm(cost->ctx))));
+    bytes *= ost_memory_beside;
+    OST_TRY(ost_broadcast(cost->ctx, sizeof elapsed, &elapsed));
     const double until = seconds_until(cost, run, elapsed);
     const int is_late = run->accuracy != 0.0 && elapsed >= variants->max_seconds;
     const int too_slow = run->predicted_seconds != 0.0 && elapsed + run->predicted_seconds > until;

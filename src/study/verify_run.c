@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 
@@ -84,7 +85,7 @@ static OstStatus solve_and_measure(const OstCase *c, const OstExact *exact, OstV
     scene->exact = &exact->field;
     OST_TRY_DONE(ost_scene_solve(scene, &result));
     OST_TRY_DONE(measure_all(scene, result, exact, run));
-    status = OST_MPI(c->ctx, MPI_Bcast(&run->warned_of_locking, 1, MPI_INT, 0, ost_comm(c->ctx)));
+    status = ost_broadcast(c->ctx, sizeof run->warned_of_locking, &run->warned_of_locking);
 done:
     run->seconds = ost_seconds() - start;
     ost_result_destroy(&result);

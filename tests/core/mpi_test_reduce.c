@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/parallel/free_memory.h"
+#include "core/parallel/gather.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/reduce.h"
 #include "support.h"
@@ -49,6 +50,13 @@ static void items_are_gathered_in_the_order_of_ranks(void **state)
     ost_free_memory(all);
 }
 
+static void rank_0_tells_the_others(void **state)
+{
+    double told[3] = {ost_rank(ctx), ost_rank(ctx) + 0.5, ost_rank(ctx)};
+    assert_success(ost_broadcast(ctx, 2 * sizeof *told, told));
+    assert_true(told[0] == 0.0 && told[1] == 0.5 && told[2] == ost_rank(ctx));
+}
+
 static void contexts_are_made_by_a_number_and_on_all(void **state)
 {
     OstContext *numbered = NULL, *all = NULL;
@@ -75,11 +83,9 @@ static void a_machine_has_more_than_is_free(void **state)
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sums_and_extremes_are_of_all_ranks),
-    cmocka_unit_test(numbers_go_on_from_rank_to_rank),
-    cmocka_unit_test(items_are_gathered_in_the_order_of_ranks),
-    cmocka_unit_test(contexts_are_made_by_a_number_and_on_all),
-    cmocka_unit_test(a_machine_has_more_than_is_free),
+    cmocka_unit_test(sums_and_extremes_are_of_all_ranks),       cmocka_unit_test(numbers_go_on_from_rank_to_rank),
+    cmocka_unit_test(items_are_gathered_in_the_order_of_ranks), cmocka_unit_test(rank_0_tells_the_others),
+    cmocka_unit_test(contexts_are_made_by_a_number_and_on_all), cmocka_unit_test(a_machine_has_more_than_is_free),
 };
 
 OST_TEST_MAIN(tests)

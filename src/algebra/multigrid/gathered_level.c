@@ -45,24 +45,24 @@ static void destroy_group(Group *g)
     OST_FREE(g->ghost);
 }
 
-/* Brings `count` items of so many bytes to the group's first rank. */
+/* Collective over all groups. Brings `count` items of so many bytes to the group's first rank. */
 static OstStatus bring(Group *g, size_t bytes, OstLocal count, const void *mine, void **all, OstLocal *total)
 {
     MPI_Datatype item;
     OstGlobal sum = 0;
-    OST_TRY(OST_MPI(g->ctx, MPI_Gather(&count, 1, MPI_INT32_T, g->count, 1, MPI_INT, 0, g->comm)));
-    for (int r = 0; g->rank == 0 && r < g->size; r++) {
+    OstStatus status = OST_MPI(g->ctx, MPI_Gather(&count, 1, MPI_INT32_T, g->count, 1, MPI_INT, 0, g->comm));
+    for (int r = 0; g->rank == 0 && r < g->size && status == OST_SUCCESS; r++) {
         g->start[r] = (int)sum;
         sum += g->count[r];
         if (sum > INT_MAX)
-            return OST_RAISE(g->ctx, OST_LIMIT_EXCEEDED, "a coarse level has more blocks on rank %d than MPI gathers",
-                             ost_rank(g->ctx));
+            status = OST_RAISE(g->ctx, OST_LIMIT_EXCEEDED, "a coarse level has more blocks on rank %d than MPI gathers",
+                               ost_rank(g->ctx));
     }
-    OST_TRY(ost_allocate(g->ctx, (size_t)sum, bytes, all));
+    OST_THEN(ost_allocate(g->ctx, (size_t)sum, bytes, all));
+    OST_TRY(ost_agree(g->ctx, status));
     OST_TRY(OST_MPI(g->ctx, MPI_Type_contiguous((int)bytes, MPI_BYTE, &item)));
     OST_TRY(OST_MPI(g->ctx, MPI_Type_commit(&item)));
-    const OstStatus status =
-        OST_MPI(g->ctx, MPI_Gatherv(mine, count, item, *all, g->count, g->start, item, 0, g->comm));
+    status = OST_MPI(g->ctx, MPI_Gatherv(mine, count, item, *all, g->count, g->start, item, 0, g->comm));
     MPI_Type_free(&item);
     *total = (OstLocal)sum;
     return status;

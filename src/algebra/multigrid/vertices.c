@@ -186,7 +186,7 @@ static OstStatus make_prolongator(Making *m)
     p->columns = linear->columns;
     for (OstLocal v = 0; v < linear->columns; v++)
         same[v] = v;
-    OST_TRY_DONE(ost_halo_subset(linear->halo, same, &p->halo));
+    OST_TRY_DONE(ost_agree(ctx, ost_halo_subset(linear->halo, same, &p->halo)));
     OST_TRY_DONE(ost_exchange_create(p->halo, OST_MODES, &p->exchange));
     status = fill_rows(m);
     OST_THEN(fill_modes(m));

@@ -111,19 +111,6 @@ static OstStatus make_rows(const OstPressureSpace *space, const Columns *columns
     return status;
 }
 
-static OstLocal find(const OstLocal *start, const OstLocal *column, OstLocal row, OstLocal wanted)
-{
-    OstLocal low = start[row], high = start[row + 1] - 1;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (column[middle] < wanted)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 typedef struct TetCoupling {
     OstSimd columns[VERTICES * 3 * NODES], eigen[VERTICES], mass[10];
 } TetCoupling;
@@ -161,7 +148,7 @@ static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal 
     const OstLocal row = pressures[v];
     const double share = is_fixed ? coupling->looseness[row] / coupling->schur[row] : 1.0;
     for (int w = 0; w < VERTICES; w++) {
-        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
+        const OstLocal k = ost_row_find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
         const double mass = of_tet->mass[pair_of(v, w)][slot];
         coupling->mass[k] += mass;
         if (coupling->estimate != coupling->mass)
@@ -240,7 +227,7 @@ static void find_scales(const OstPressureSpace *space, const OstMaterialField *f
 static void find_diagonal(OstCoupling *coupling)
 {
     for (OstLocal row = 0; row < coupling->rows; row++) {
-        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, row);
+        const OstLocal k = ost_row_find(coupling->mass_start, coupling->mass_column, row, row);
         if (coupling->estimate[k] == 0.0)
             coupling->estimate[k] = coupling->mass[k];
         coupling->diagonal[row] = coupling->estimate[k];

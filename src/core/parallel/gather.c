@@ -4,6 +4,8 @@
 #include "core/error.h"
 #include "core/memory.h"
 
+#include <limits.h>
+
 OstStatus ost_gather(OstContext *ctx, size_t size, const void *items, OstLocal count, void **all, OstLocal *total)
 {
     return ost_gather_items(ctx, size, items, count, "more than 2^31 - 1 items to gather; gather fewer", all, total);
@@ -39,4 +41,13 @@ done:
         OST_FREE(*all);
     OST_FREE(counts);
     return status;
+}
+
+OstStatus ost_broadcast(OstContext *ctx, size_t bytes, void *data)
+{
+    for (size_t done = 0, piece; done < bytes; done += piece) {
+        piece = bytes - done < INT_MAX ? bytes - done : INT_MAX;
+        OST_TRY(OST_MPI(ctx, MPI_Bcast((char *)data + done, (int)piece, MPI_BYTE, 0, ost_comm(ctx))));
+    }
+    return OST_SUCCESS;
 }

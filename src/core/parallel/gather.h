@@ -10,4 +10,7 @@
 OstStatus ost_gather_items(OstContext *ctx, size_t size, const void *items, OstLocal count, const char *too_many,
                            void **all, OstLocal *total);
 
+/* Collective. Gives every rank what rank 0 has in `data`; `bytes` is the same on all. */
+OstStatus ost_broadcast(OstContext *ctx, size_t bytes, void *data);
+
 #endif

@@ -83,7 +83,7 @@ static OstStatus exchange_requests(OstHalo *halo, OstGlobal first_number, const 
     OstContext *ctx = halo->ctx;
     OstGlobal *asked = NULL;
     const OstLocal sends = halo->send_start[halo->neighbour_count];
-    OST_TRY(OST_NEW(ctx, &asked, sends));
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &asked, sends)));
     OstStatus status = OST_SUCCESS;
     int requests = 0;
     for (int k = 0; k < halo->neighbour_count; k++) {
@@ -177,7 +177,6 @@ done:
     return status;
 }
 
-/* Fits an int: reserve_buffer has checked it. */
 int ost_halo_messages(const OstHalo *halo, const OstLocal *start)
 {
     int messages = 0;
@@ -199,7 +198,7 @@ static OstStatus check_entry(const OstHalo *halo, size_t size)
 static OstStatus post(OstHalo *halo, int sends, size_t size, const OstLocal *start, char *entries, int *requests)
 {
     MPI_Comm comm = ost_comm(halo->ctx);
-    for (int k = 0; k < halo->neighbour_count; k++) {
+    for (int k = 0; k < halo->neighbour_count; k++) { /* the length fits an int: reserve_buffer has checked it */
         const int to = halo->neighbour[k], length = (int)((size_t)(start[k + 1] - start[k]) * size);
         char *bytes = entries + (size_t)start[k] * size;
         MPI_Request *request = &halo->request[*requests];

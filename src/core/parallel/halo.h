@@ -30,7 +30,7 @@ OstStatus ost_halo_create(OstContext *ctx, OstLocal owned, OstGlobal first_numbe
                           const OstGlobal *ghost_number, OstHalo **halo);
 void ost_halo_destroy(OstHalo **halo);
 
-/* Collective. The halo of the entries with renumber[i] >= 0 (i over owned entries, then ghosts), their new numbers.
+/* Local. The halo of the entries with renumber[i] >= 0 (i over owned entries, then ghosts), their new numbers.
  * They must keep their order; a ghost must be in if and only if its owner's entry is. */
 OstStatus ost_halo_subset(const OstHalo *halo, const OstLocal *renumber, OstHalo **subset);
 

@@ -3,10 +3,10 @@
 
 #include "core/error.h"
 #include "core/write_aside.h"
+#include "formats/serial/input_file.h"
 #include "formats/vtkhdf/vtkhdf.h"
 
 #include <string.h>
-#include <strings.h>
 
 /* The formats that rank 0 writes. */
 static const struct {
@@ -15,18 +15,12 @@ static const struct {
 } writers[] = {{".msh", ost_msh_write}, {".inp", ost_abaqus_write}, {".vtu", ost_vtu_mesh_write}};
 enum { WRITERS = sizeof writers / sizeof *writers };
 
-static int ends_with(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), tail = strlen(ending);
-    return length > tail && strcasecmp(path + length - tail, ending) == 0;
-}
-
 OstStatus ost_mesh_export_check(OstContext *ctx, const char *path)
 {
     for (int w = 0; w < WRITERS; w++)
-        if (ends_with(path, writers[w].ending))
+        if (ost_has_ending(path, writers[w].ending))
             return OST_SUCCESS;
-    return ends_with(path, ".vtkhdf") || ends_with(path, ".hdf")
+    return ost_has_ending(path, ".vtkhdf") || ost_has_ending(path, ".hdf")
                ? OST_SUCCESS
                : OST_RAISE(
                      ctx, OST_INVALID_USAGE,
@@ -52,7 +46,7 @@ static OstStatus check_quotes(const OstMesh *mesh, const char *path)
         name = strchr(mesh->regions.name[r], '"') ? mesh->regions.name[r] : name;
     for (int b = 0; b < mesh->boundary_count; b++)
         name = strchr(mesh->boundaries[b].name, '"') ? mesh->boundaries[b].name : name;
-    if (!name || (!ends_with(path, ".msh") && !ends_with(path, ".inp")))
+    if (!name || (!ost_has_ending(path, ".msh") && !ost_has_ending(path, ".inp")))
         return OST_SUCCESS;
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                      "%s: cannot hold the name '%s', which has a double quote; write a .vtkhdf or .vtu file", path,
@@ -63,11 +57,11 @@ OstStatus ost_mesh_export(const OstMesh *mesh, const char *path)
 {
     OST_TRY(ost_mesh_export_check(mesh->ctx, path));
     OST_TRY(check_quotes(mesh, path));
-    if (mesh->tet_axes && ends_with(path, ".inp"))
+    if (mesh->tet_axes && ost_has_ending(path, ".inp"))
         ost_warn(mesh->ctx, "%s: the material axes of the tets are left out; a .vtkhdf, .vtu or .msh file holds them",
                  path);
     for (int w = 0; w < WRITERS; w++)
-        if (ends_with(path, writers[w].ending))
+        if (ost_has_ending(path, writers[w].ending))
             return write_alone(mesh, path, writers[w].write);
     const OstOutputArray region = {"region", OST_ON_TETS, OST_VALUES_INT32, 1, mesh->tet_region};
     return ost_vtkhdf_write(mesh->ctx, path, mesh, 1, &region, NULL);

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 enum { MESSAGE_SIZE = 2048 };
@@ -25,6 +26,12 @@ OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGloba
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
     *bytes = (OstGlobal)facts.st_size;
     return OST_SUCCESS;
+}
+
+int ost_has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcasecmp(path + length - tail, ending) == 0;
 }
 
 OstStatus ost_file_raise(OstContext *ctx, const char *file, int line, const char *place, const char *format,

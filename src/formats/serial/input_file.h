@@ -12,6 +12,9 @@
 /* Local. Opens a regular file for reading; fills its size. */
 OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes);
 
+/* Local. Does a path end in `ending`, in upper or lower case? */
+int ost_has_ending(const char *path, const char *ending);
+
 /* Local. Raises OST_INVALID_INPUT from a source file and line: the place, such as "mesh.msh:12", then the text, in
  * which control characters of the input become question marks. */
 OstStatus ost_file_raise(OstContext *ctx, const char *file, int line, const char *place, const char *format,

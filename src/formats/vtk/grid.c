@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "formats/serial/input_file.h"
 #include "formats/vtk/vtk.h"
 
 #include <inttypes.h>
@@ -309,19 +310,13 @@ static OstStatus check_grid(const OstVtkGrid *grid)
     return OST_SUCCESS;
 }
 
-static int has_ending(const char *path, const char *ending)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, ending) == 0;
-}
-
 static OstStatus read_text_or_xml(OstVtkGrid *grid)
 {
     OstMshCursor cursor;
     OST_TRY(ost_msh_open(grid->ctx, grid->path, &cursor));
     grid->by_meshio = ost_vtk_is_by_meshio(&cursor);
     const OstStatus status =
-        has_ending(grid->path, ".vtu") ? ost_vtk_xml_grid(&cursor, grid) : ost_vtk_legacy_grid(&cursor, grid);
+        ost_has_ending(grid->path, ".vtu") ? ost_vtk_xml_grid(&cursor, grid) : ost_vtk_legacy_grid(&cursor, grid);
     ost_msh_close(&cursor);
     return status;
 }
@@ -329,7 +324,8 @@ static OstStatus read_text_or_xml(OstVtkGrid *grid)
 static OstStatus read_grid(OstContext *ctx, const char *path, const char *wanted, OstFileField *field, OstVtkGrid *grid)
 {
     *grid = (OstVtkGrid){.ctx = ctx, .path = path, .wanted = wanted, .field = field};
-    OST_TRY(has_ending(path, ".vtkhdf") || has_ending(path, ".hdf") ? ost_vtk_hdf_grid(grid) : read_text_or_xml(grid));
+    OST_TRY(ost_has_ending(path, ".vtkhdf") || ost_has_ending(path, ".hdf") ? ost_vtk_hdf_grid(grid)
+                                                                            : read_text_or_xml(grid));
     return check_grid(grid);
 }
 

@@ -3,8 +3,8 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 
-#include <limits.h>
 #include <string.h>
 
 /* What every rank must know of rank 0's chunk. */
@@ -13,26 +13,15 @@ typedef struct Outline {
     int nodes_per_tet;
     int region_count, boundary_count;
     int has_node_labels, has_tet_labels, of_cells;
-    int text_bytes; /* of all names with their terminating zeros, regions first */
+    size_t text_bytes; /* of all names with their terminating zeros, regions first */
 } Outline;
 
-static OstStatus broadcast(OstContext *ctx, void *data, size_t bytes)
+static void outline_chunk(const OstMeshChunk *chunk, Outline *outline)
 {
-    return OST_MPI(ctx, MPI_Bcast(data, (int)bytes, MPI_BYTE, 0, ost_comm(ctx)));
-}
-
-static OstStatus outline_chunk(const OstMeshChunk *chunk, Outline *outline)
-{
-    size_t bytes = 0;
     for (int i = 0; i < chunk->regions.count; i++)
-        bytes += strlen(chunk->regions.name[i]) + 1;
+        outline->text_bytes += strlen(chunk->regions.name[i]) + 1;
     for (int b = 0; b < chunk->boundary_count; b++)
-        bytes += strlen(chunk->boundaries[b].name) + 1;
-    if (bytes > INT_MAX)
-        return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED,
-                         "the names of regions and boundaries take %zu bytes, at most "
-                         "%d can be sent",
-                         bytes, INT_MAX);
+        outline->text_bytes += strlen(chunk->boundaries[b].name) + 1;
     outline->nodes = chunk->global_nodes;
     outline->tets = chunk->global_tets;
     outline->nodes_per_tet = chunk->nodes_per_tet;
@@ -41,8 +30,6 @@ static OstStatus outline_chunk(const OstMeshChunk *chunk, Outline *outline)
     outline->has_node_labels = chunk->node_label != NULL;
     outline->has_tet_labels = chunk->tet_label != NULL;
     outline->of_cells = chunk->of_cells;
-    outline->text_bytes = (int)bytes;
-    return OST_SUCCESS;
 }
 
 static void pack_names(const OstMeshChunk *chunk, char *text, int *kind)
@@ -142,16 +129,17 @@ OstStatus ost_chunk_share(OstContext *ctx, OstMeshChunk **chunk)
     Outline outline = {0};
     char *text = NULL;
     int *kind = NULL;
-    OstStatus status = *chunk ? outline_chunk(*chunk, &outline) : OST_SUCCESS;
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(broadcast(ctx, &outline, sizeof outline));
+    OstStatus status = OST_SUCCESS;
+    if (*chunk)
+        outline_chunk(*chunk, &outline);
+    OST_TRY_DONE(ost_broadcast(ctx, sizeof outline, &outline));
     status = OST_NEW(ctx, &text, outline.text_bytes);
     OST_THEN(OST_NEW(ctx, &kind, 2 * (size_t)outline.boundary_count));
     OST_TRY_DONE(ost_agree(ctx, status));
     if (ost_rank(ctx) == 0)
         pack_names(*chunk, text, kind);
-    OST_TRY_DONE(broadcast(ctx, text, (size_t)outline.text_bytes));
-    OST_TRY_DONE(broadcast(ctx, kind, 2 * (size_t)outline.boundary_count * sizeof *kind));
+    OST_TRY_DONE(ost_broadcast(ctx, outline.text_bytes, text));
+    OST_TRY_DONE(ost_broadcast(ctx, 2 * (size_t)outline.boundary_count * sizeof *kind, kind));
     if (*chunk)
         status = compare_names(*chunk, &outline, text, kind);
     else

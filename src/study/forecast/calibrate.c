@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/json_file.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 #include "orthostat/scene.h"
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
@@ -81,7 +82,7 @@ static OstStatus write_fields(const Body *body, OstResult *result)
     OstContext *ctx = body->c->ctx;
     int id = (int)getpid();
     char path[4096];
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(&id, 1, MPI_INT, 0, ost_comm(ctx))));
+    OST_TRY(ost_broadcast(ctx, sizeof id, &id));
     snprintf(path, sizeof path, "%s/orthostat-calibration-%d.vtkhdf", folder && folder[0] ? folder : "/tmp", id);
     const OstStatus status = ost_result_write(result, body->c->output_fields, path);
     if (ost_rank(ctx) == 0)
@@ -132,7 +133,7 @@ static OstStatus run_body(int b, Body *body, OstCalibrationRun *run)
     for (int i = 0; spent < (i < REPEATS ? long_enough : short_in_all) && i < MOST_REPEATS; i++) {
         OstCalibrationRun again = *run;
         OST_TRY(run_once(body, &again));
-        OST_TRY(OST_MPI(ctx, MPI_Bcast(&again.seconds, 1, MPI_DOUBLE, 0, ost_comm(ctx))));
+        OST_TRY(ost_broadcast(ctx, sizeof again.seconds, &again.seconds));
         spent += again.seconds;
         if (i == 0)
             *run = again;
@@ -226,7 +227,7 @@ static OstStatus run_all(OstContext *ctx, Body *body, OstCalibration *calibratio
     fit(body, ranks, calibration);
     for (int b = 0; b < OST_CALIBRATION_RUNS; b++)
         ost_forecast_make(body[b].c, &body[b].plan, &calibration->rates, ranks, &calibration->run[b].foretold);
-    return OST_MPI(ctx, MPI_Bcast(&calibration->rates, (int)sizeof calibration->rates, MPI_BYTE, 0, ost_comm(ctx)));
+    return ost_broadcast(ctx, sizeof calibration->rates, &calibration->rates);
 }
 
 OstStatus ost_calibrate(OstContext *ctx, const char *version, OstCalibration *calibration)

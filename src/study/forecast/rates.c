@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/json_file.h"
+#include "core/parallel/gather.h"
 
 #include <errno.h>
 #include <math.h>
@@ -134,7 +135,7 @@ OstStatus ost_rates_load(OstContext *ctx, OstRates *rates)
     *rates = ost_rates_typical();
     if (ost_rank(ctx) == 0)
         load(ctx, rates);
-    return OST_MPI(ctx, MPI_Bcast(rates, (int)sizeof *rates, MPI_BYTE, 0, ost_comm(ctx)));
+    return ost_broadcast(ctx, sizeof *rates, rates);
 }
 
 static json_t *order_json(const OstRates *rates, int q)

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/gather.h"
 
 #include <sched.h>
 #include <stdio.h>
@@ -102,7 +103,7 @@ static OstStatus measure(OstContext *ctx, char *room, OstNetwork *network)
             network->bandwidth = bandwidth;
     }
     double both[2] = {network->latency, network->bandwidth};
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(both, 2, MPI_DOUBLE, 0, ost_comm(ctx))));
+    OST_TRY(ost_broadcast(ctx, sizeof both, both));
     network->latency = both[0];
     network->bandwidth = both[1];
     return OST_SUCCESS;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/parallel/gather.h"
 #include "study/scale/model.h"
 #include "study/scale/scale.h"
 
@@ -128,7 +129,7 @@ static OstStatus run_one(OstScale *scale, OstScaleRun *run)
     }
     OST_TRY(meet(ctx));
     OST_TRY(ost_agree(ctx, status));
-    return OST_MPI(ctx, MPI_Bcast(run, (int)sizeof *run, MPI_BYTE, 0, ost_comm(ctx)));
+    return ost_broadcast(ctx, sizeof *run, run);
 }
 
 static void announce(const OstScale *scale, const OstScaleRun *run, int number)
@@ -147,7 +148,7 @@ static OstStatus decide(OstScale *scale, double start, OstScaleRun *run, int *ye
         snprintf(run->reason, sizeof run->reason, "the program has %d rank%s: start it with mpirun -n %d",
                  ost_size(ctx), ost_size(ctx) == 1 ? "" : "s", run->ranks);
     *yes = run->reason[0] == 0 && fits(scale, start, run);
-    OST_TRY(OST_MPI(ctx, MPI_Bcast(run, (int)sizeof *run, MPI_BYTE, 0, ost_comm(ctx))));
+    OST_TRY(ost_broadcast(ctx, sizeof *run, run));
     *yes = run->reason[0] == 0;
     if (!*yes)
         run->state = OST_SCALE_NOT_RUN;
