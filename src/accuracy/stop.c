@@ -46,16 +46,33 @@ static double next_error(OstSolveStop *stop, double error)
     return fmin((stop->settled ? stop->share : small_share) * answer->energy_norm, largest_error * size);
 }
 
+/* A solver compares its error with its own unknowns, whose energy is far larger than the answer's where supports are
+ * moved: nodes beside one that has moved follow it. */
+static OstStatus is_early(const OstSolveStop *stop, double error, double *next, int *early)
+{
+    double energy = 0.0;
+    OST_TRY(ost_problem_energy(stop->problem, 1.0, stop->displacement, &energy));
+    const double enough = largest_error * sqrt(fmax(2.0 * energy, 0.0));
+    *early = error > enough && enough > 0.0;
+    if (*early)
+        *next = enough;
+    return OST_SUCCESS;
+}
+
 /* OstErrorStop's. */
 static OstStatus ask(void *data, const double *u, double error, double *next)
 {
     OstSolveStop *stop = data;
     OstContext *ctx = stop->problem->ctx;
+    int early = 0;
     if (stop->settled) {
         *next = error;
         return OST_SUCCESS;
     }
     OST_TRY(ost_problem_displacement(stop->problem, 1.0, u, stop->displacement));
+    OST_TRY(is_early(stop, error, next, &early));
+    if (early)
+        return OST_SUCCESS;
     ost_ledger_enter(ctx, OST_EFFECT_ERROR_ESTIMATE);
     const OstStatus status =
         ost_estimate_find(stop->estimate, stop->solver, 1.0, stop->displacement, stop->answer, &stop->surplus);
