@@ -114,8 +114,8 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
             of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
         keep_reaction(problem->supports, u, nodes[n], of_node);
         for (int i = 0; i < 3; i++) {
-            const double share = ost_share_borne(borne->shared[nodes[n]], i);
-            in_doubt[i] = share > 0.0 ? (1.0 - share) * of_node[i] : 0.0;
+            const double share = ost_selected_share(borne->shared[nodes[n]], i);
+            in_doubt[i] = share * (1.0 - share) * 2.0 * of_node[i];
             of_node[i] *= share;
         }
         ost_cross3(arm, of_node, moment);
@@ -158,7 +158,7 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
         if (watch->of_moment)
             ost_cross3(direction, arm, moved);
         for (int i = 0; i < 3; i++)
-            moved[i] *= ost_share_borne(borne.shared[nodes[n]], i);
+            moved[i] *= ost_selected_share(borne.shared[nodes[n]], i);
         if (interest->load && nodes[n] < problem->mesh->owned_nodes) { /* arms grow with the displacement */
             double force[3];
             memcpy(force, interest->load + 3 * (size_t)nodes[n], sizeof force);

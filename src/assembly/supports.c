@@ -218,7 +218,7 @@ unsigned char ost_supports_held(const OstSupports *supports, OstLocal node)
     find_support(supports, node, projector, NULL);
     for (size_t i = 0; i < 3; i++) {
         const double spring = supports->spring ? supports->spring[9 * (size_t)node + 4 * i] : 0.0;
-        held |= (projector[4 * i] < 1.0 - nothing || spring > 0.0 ? 1U : 0U) << i;
+        held |= (projector[4 * i] < 1.0 - nothing ? 1U : 0U) << i | (spring > 0.0 ? 8U : 0U) << i;
     }
     return (unsigned char)held;
 }

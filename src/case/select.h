@@ -8,18 +8,18 @@
  * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
-/* Collective. Which nodes of a selection other supports hold too, along x, y and z: those at an edge of its faces
- * behind which faces of the surface are held that are not selected. What acts there is borne by both (bits 1, 2, 4),
- * or, where no support holds the selection's own faces along it, by the others alone (bits 8, 16, 32). `held` and
- * `*shared` (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
+/* Collective. What other supports bear of the reaction of a selection's nodes, along x, y and z: a part (bits 1, 2, 4)
+ * or all (bits 8, 16, 32). Nodes at an edge of its faces are asked, behind which faces of the surface are held that are
+ * not selected: what acts there is borne by both, or, where the selected faces are not held along that direction, by
+ * the others alone; a spring bears nothing where a constraint does. `held` and `*shared` (memory from the context): a
+ * byte for each local node, the former as ost_supports_held has it. */
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared);
-enum { OST_BORNE_BY_OTHERS = 3 };
 
-/* The share of what acts along x, y or z on such a node that is the selection's. */
-static inline double ost_share_borne(unsigned shared, int i)
+/* Local. The selection's share of what acts at a node along a direction, 0 to 2, of the byte that is `shared`. */
+static inline double ost_selected_share(unsigned char shared, int direction)
 {
-    return shared >> (OST_BORNE_BY_OTHERS + i) & 1U ? 0.0 : shared >> i & 1U ? 0.5 : 1.0;
+    return shared >> (3 + direction) & 1 ? 0.0 : shared >> direction & 1 ? 0.5 : 1.0;
 }
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */

@@ -157,43 +157,50 @@ done:
 
 /* --- nodes that two supports hold --- */
 
-/* Of nodes, beside bits for x, y and z: what others hold, and, five bits up, what the selection itself does. */
-enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7, OWN = 5 };
+/* Of nodes, beside bits for x, y and z: along what faces of the selection are held, and others, by constraints (shift
+ * 0) or by springs (shift 6). */
+enum { ALONG = 7, OWN = 0, OTHERS = 3, BY_SPRINGS = 6, SELECTED = 1 << 12, HAS_FACE = 1 << 13 };
 
-/* Along what are all nodes of a face held? A foundation gives a quadratic face's vertices nothing. */
-static unsigned held_along(int nodes, const OstLocal *node, const unsigned char *in, const unsigned char *held)
-{
-    unsigned along = ALONG;
-    for (int k = 0; k < nodes; k++)
-        along &= !in[node[k]] ? 0U : nodes == 3 || k >= 3 ? held[node[k]] : ALONG;
-    return along;
-}
-
-/* Faces between selected nodes are those of the selection. All between nodes `in` one support (NULL: not asked) leave
- * bits at their nodes for what they are held along. */
-static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held,
-                          unsigned char *flags)
+/* Faces between selected nodes are those of the selection. */
+static void look_at_selected(const OstSurface *surface, unsigned short *flags)
 {
     for (OstLocal f = 0; f < surface->count; f++) {
-        const int nodes = surface->nodes_per_face;
-        const OstLocal *node = surface->nodes + (size_t)f * (size_t)nodes;
-        const unsigned along = in ? held_along(nodes, node, in, held) : 0U;
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
         unsigned selected = SELECTED;
-        for (int k = 0; k < nodes; k++)
+        for (int k = 0; k < surface->nodes_per_face; k++)
             selected &= flags[node[k]];
-        for (int k = 0; k < nodes; k++)
-            flags[node[k]] |= (unsigned char)(selected ? HAS_FACE | along << OWN : along);
+        for (int k = 0; k < surface->nodes_per_face && selected; k++)
+            flags[node[k]] |= HAS_FACE;
+    }
+}
+
+/* Faces between nodes `in` one support leave bits at their nodes: of constraints for what all of these are `held`
+ * along; of springs, which on quadratic tets act between vertices, for all directions. */
+static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held, int by_springs,
+                          unsigned short *flags)
+{
+    for (OstLocal f = 0; f < surface->count; f++) {
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
+        unsigned along = ALONG, selected = SELECTED;
+        for (int k = 0; k < surface->nodes_per_face; k++) {
+            along &= !in[node[k]] ? 0U : by_springs ? ALONG : held[node[k]];
+            selected &= flags[node[k]];
+        }
+        const int shift = (by_springs ? BY_SPRINGS : 0) + (selected ? OWN : OTHERS);
+        for (int k = 0; k < surface->nodes_per_face; k++)
+            flags[node[k]] |= (unsigned short)(along << shift);
     }
 }
 
 /* Boundaries one by one: sides of a body one tet thick lie between two of them. */
 static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                                 const OstSelection *on, const unsigned char *held, unsigned char *flags)
+                                 const OstSelection *on, const unsigned char *held, int by_springs,
+                                 unsigned short *flags)
 {
     unsigned char *in = NULL;
     if (on->kind != OST_SELECT_BOUNDARY) {
         OST_TRY(ost_select_flags(c, mesh, on, &in));
-        look_at_faces(surface, in, held, flags);
+        look_at_faces(surface, in, held, by_springs, flags);
         OST_FREE(in);
         return OST_SUCCESS;
     }
@@ -205,35 +212,48 @@ static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const Os
         memset(in, 0, (size_t)mesh->node_count);
         for (size_t n = 0; n < (size_t)boundary->count * (size_t)boundary->nodes_per_item; n++)
             in[boundary->nodes[n]] = 1;
-        look_at_faces(surface, in, held, flags);
+        look_at_faces(surface, in, held, by_springs, flags);
     }
     OST_FREE(in);
     return OST_SUCCESS;
+}
+
+/* What others bear of a node's reaction: of a selection without faces there nothing is known. */
+static unsigned char borne_by_others(unsigned flags, unsigned held)
+{
+    unsigned half = 0, all = 0;
+    if (!(flags & SELECTED) || !(flags & HAS_FACE))
+        return 0;
+    for (unsigned i = 0; i < 3; i++) {
+        const unsigned by = held >> i & 1 ? flags : held >> (3 + i) & 1 ? flags >> BY_SPRINGS : 0;
+        const unsigned own = by >> (OWN + i) & 1, others = by >> (OTHERS + i) & 1;
+        half |= (own & others) << i;
+        all |= (others & ~own) << i;
+    }
+    return (unsigned char)(half | all << 3);
 }
 
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared)
 {
     const OstSurface *surface;
-    unsigned links = 0; /* what they hold is not known: taken for all */
+    unsigned short *flags = NULL;
     OST_TRY(ost_mesh_surface(mesh, &surface));
-    OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count));
+    OstStatus status = OST_NEW(mesh->ctx, shared, mesh->node_count);
+    OST_THEN(OST_NEW(mesh->ctx, &flags, mesh->node_count));
+    status = ost_agree(mesh->ctx, status);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
-        (*shared)[nodes[n]] = SELECTED;
+        flags[nodes[n]] = SELECTED;
     if (status == OST_SUCCESS)
-        look_at_faces(surface, NULL, held, *shared);
+        look_at_selected(surface, flags);
     for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
-        if (ost_constraint_links(&c->constraints[k]))
-            links = ALONG;
-        else
-            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, *shared);
+        if (!ost_constraint_links(&c->constraints[k]))
+            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, 0, flags);
     for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
-        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, *shared);
-    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++) {
-        const unsigned flags = (*shared)[n], own = flags >> OWN | links;
-        const unsigned others = (flags & SELECTED) && (flags & HAS_FACE) ? flags & ALONG & held[n] : 0U;
-        (*shared)[n] = (unsigned char)((others & own) | (others & ~own) << OST_BORNE_BY_OTHERS);
-    }
+        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, 1, flags);
+    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
+        (*shared)[n] = borne_by_others(flags[n], held[n]);
+    OST_FREE(flags);
     OST_THEN(ost_halo_import(mesh->halo, 1, *shared));
     return status;
 }

@@ -204,14 +204,26 @@ for ranks in fewer((1, 2)):
         check(found["beside"]["value"] == found["beside"]["error"] == 0, f"what the other alone holds: {found['beside']}")
         check(not asked or (end["error"] < 0.1 * end["value"] and "its error added" not in done.output), done.output)
 
-# A foundation beside a held face: each has half of what acts at their edge, and both bear the weight.
-found, _ = watched(HALF[:HALF.index("constraints")] + """constraints: [{on: {boundary: ymin}, displacement: [0, 0, 0]}]
-springs: [{on: {boundary: xmax}, foundation: 1e5}]
-loads: [{on: {boundary: zmax}, total_force: [0, 0, -1]}]
+# What others alone hold along a direction, and a spring where a constraint holds, is not counted: three planes of symmetry, each of
+# which had an eighth of the pull of the first; and a bed beside a clamped face, whose sum with it was 1.007 of the weight.
+PLANES = """mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3, density: 1}]
+constraints: [{on: {boundary: xmin}, slide: [1, 0, 0]}, {on: {boundary: ymin}, slide: [0, 1, 0]}, {on: {boundary: zmin}, slide: [0, 0, 1]}]
+loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}]
 large_rotation: off
-watch: {held: {reaction: {boundary: ymin}, component: z}, founded: {reaction: {boundary: xmax}, component: z}}
-""", 2, "2, 1, 1")
-check(abs(found["held"]["value"] + found["founded"]["value"] - 1) < 1e-6, f"beside a foundation: {found}")
+watch:
+""" + "".join(f"  {side}: {{reaction: {{boundary: {side}}}, component: x}}\n" for side in ("xmin", "ymin", "zmin"))
+BEDDED = PLANES.split("constraints:")[0] + """constraints: [{on: {boundary: ymin}, displacement: [0, 0, 0]}]
+springs: [{on: {boundary: xmax}, foundation: 20}]
+loads: [{gravity: [0, 0, -1]}]
+watch:
+""" + "".join(f"  {side}: {{reaction: {{boundary: {side}}}, component: z}}\n" for side in ("ymin", "xmax"))
+for ranks in fewer((1, 2)):
+    found, _ = watched(PLANES, 2, "", ranks)
+    check(abs(found["xmin"]["value"] + 1) < 1e-9 and found["ymin"]["value"] == found["zmin"]["value"] == 0, f"planes of symmetry: {found}")
+    found, _ = watched(BEDDED, 2, "", ranks)
+    check(abs(found["ymin"]["value"] + found["xmax"]["value"] - 1) < 1e-6, f"a clamped face beside a bed: {found}")
 
 # Means in a layer up to 1000 times stiffer, which has little of the energy: by few steps they were other ones on two ranks.
 brick_mesh(os.path.join(folder, "layers.msh"), [("b", (0, 0, 0), (1, 1, 1), (3, 3, 3), ("soft", "stiff", "soft"))])
