@@ -8,6 +8,7 @@
 #include "formats/msh/cursor.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -194,6 +195,7 @@ static OstStatus add_system(Unv *unv, OstGlobal label, int is_global)
  * and its origin. */
 static OstStatus read_systems(Unv *unv)
 {
+    static const double rounding = 1e-12;
     next_line(unv);
     if (!unv->ended)
         next_line(unv);
@@ -206,7 +208,7 @@ static OstStatus read_systems(Unv *unv)
             double x[3];
             OST_TRY(read_reals(unv, next_line(unv), x));
             for (int d = 0; d < 3; d++)
-                is_global &= x[d] == (row == d ? 1.0 : 0.0);
+                is_global &= fabs(x[d] - (row == d ? 1.0 : 0.0)) < rounding;
         }
         OST_TRY(add_system(unv, label, is_global));
     }
