@@ -352,16 +352,18 @@ static OstStatus hand_out_all(Search *search, const OstProblem *state, const Ost
     at_state.problem = state;
     if (surplus->stress)
         memset(surplus->stress, 0, 6 * (size_t)mesh->owned_tets * sizeof *surplus->stress);
+    if (surplus->along_axes)
+        memset(surplus->along_axes, 0, 6 * (size_t)mesh->owned_tets * sizeof *surplus->along_axes);
     if (surplus->node_stress)
         memset(surplus->node_stress, 0,
                6 * (size_t)mesh->nodes_per_tet * (size_t)mesh->tet_count * sizeof *surplus->node_stress);
     const double length = search->longer * search->steps.size;
     if (surplus->stress)
         ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions, search->higher * length, NULL,
-                                surplus->stress);
+                                surplus->stress, surplus->along_axes);
     if (surplus->node_stress)
         ost_operator_add_stress(&at_state, search->steps.u, search->steps.e.functions, length, surplus->node_stress,
-                                NULL);
+                                NULL, NULL);
     return surplus->displacement ? hand_out(search, surplus->displacement) : OST_SUCCESS;
 }
 
@@ -388,7 +390,8 @@ void ost_estimate_add(const OstEstimate *estimate, const double *error, const Os
     for (size_t i = 0; i < 3 * (size_t)estimate->problem->mesh->node_count && surplus->displacement; i++)
         surplus->displacement[i] += error[i];
     if ((surplus->stress || surplus->node_stress) && !estimate->problem->pressures)
-        ost_operator_add_stress(&estimate->stiffness, error, NULL, 1.0, surplus->node_stress, surplus->stress);
+        ost_operator_add_stress(&estimate->stiffness, error, NULL, 1.0, surplus->node_stress, surplus->stress,
+                                surplus->along_axes);
 }
 
 OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, const double *u, OstAnswerError *found,

@@ -25,9 +25,8 @@ OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double
  * OST_MOST_LOAD_FACTOR: by any factor, or the material has no strengths. */
 double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion, const double stress[6]);
 
-/* Local. Of a symmetric tensor 11 22 33 12 23 31: components along axes (rows); von Mises' number; its eigenvalues, the
- * largest first, and unit vectors along them (rows, unless NULL). */
-void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
+/* Local. Of a symmetric tensor 11 22 33 12 23 31: von Mises' number; its eigenvalues, the largest first, and unit
+ * vectors along them (rows, unless NULL). */
 double ost_von_mises(const double stress[6]);
 OstStatus ost_principal(OstContext *ctx, const double tensor[6], double values[3], double *directions);
 

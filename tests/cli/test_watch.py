@@ -180,6 +180,31 @@ watch: {mean: {stress: {region: all}, component: xx}}
     check(near(report["watched"]["mean"]["value"], 1.0), f"the mean stress is not 1: {report['watched']}")
 
 
+def means_are_along_the_axes_as_they_vary_in_tets():
+    """Of a turning disc of few tets: by an adjoint problem, by e alone, and where rotations are large. Along each tet's
+    own axes all three were 0.32 % off, and 0.01 to 0.07 % was stated."""
+    disc = """mesh: {sector: {axis: z, length: 0.4, radii: [0.5, 2], angle: 90, divisions: {around: 4, radial: 4, axial: 1}}}
+element: {order: 2}
+materials:
+  - region: all
+    youngs_modulus: %s
+    poissons_ratio: 0.3
+    density: 1
+    axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}
+constraints:
+  - {on: {boundary: start}, slide: [1, 0, 0]}
+  - {on: {boundary: finish}, slide: [0, 1, 0]}
+  - {on: {boundary: bottom}, slide: [0, 0, 1]}
+loads: [{centrifugal: {axis: [0, 0, 1], angular_velocity: 2}}]
+large_rotation: %s
+watch: {mean: {stress: {region: all}, component: "22"}}
+"""
+    for moduli, rotation in ("[1e5, 1e3, 1e4]", "off"), ("[1e4, 1e3, 2e3]", "off"), ("[1e7, 1e6, 2e6]", "on"):
+        coarse, fine = (solve(disc % (moduli, rotation), extra=("--set", f"mesh.refine={k}"))[1]["watched"]["mean"] for k in (0, 1))
+        true = fine["value"] + fine["error"] - coarse["value"]
+        check(abs(true) < 3e-4 * fine["value"] and 0.25 < coarse["error"] / true < 2.5, f"{moduli}: {true} missing, of {coarse}")
+
+
 def load_factors_are_those_of_the_summary():
     """The bar, pulled by 2 over a section of 1, of a material that tears at 5; half of it of one without strengths."""
     strong = CASE[:CASE.index("watch:")].replace("0.3}]", "0.3, strengths: {tension: 5, compression: 8}}]") + """watch:
@@ -247,6 +272,7 @@ def main():
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
     linear_theory_may_be_off_by_all_of_a_small_component()
     means_are_by_the_true_volume_of_curved_tets()
+    means_are_along_the_axes_as_they_vary_in_tets()
     load_factors_are_those_of_the_summary()
     nothing_watched_is_nothing_in_json()
     refused("a watched boundary", CASE.replace("{reaction: {boundary: xmin}", "{reaction: {boundary: xmim}"),
