@@ -71,6 +71,8 @@ typedef struct OstAnswerError {
                                   moved: its force has an error that is not in e */
     int displacement_is_least; /* 1: the true one may be up to five times that, as multigrid finds e slowly and nothing
                                   is watched */
+    double by_loads;           /* how much of the work that strains the body loads do, 0 to 1; the rest is that of
+                                  supports that are moved */
     int known;                 /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
     int region;                /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;

@@ -57,15 +57,21 @@ static OstStatus move_large(const Search *search, double t, const double *u, con
     return ost_agree(problem->ctx, status);
 }
 
+static void take_strain(const OstInterest *interest, OstMaterialField *field)
+{
+    field->region_eigenstrain = NULL;
+    field->tet_eigenstrain = interest->strain;
+    field->tet_eigenstrain_in_world = interest->strain_in_world;
+}
+
 /* The forces of a strain, in steps.force. */
-static OstStatus strain_load(Search *search, double *strain)
+static OstStatus strain_load(Search *search, const OstInterest *interest)
 {
     const OstProblem *problem = search->estimate->problem;
     OstMaterialField field;
     OstProblem strained;
     ost_problem_at_pressure(problem, NULL, &field, &strained);
-    field.region_eigenstrain = NULL;
-    field.tet_eigenstrain = strain;
+    take_strain(interest, &field);
     memset(search->steps.force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *search->steps.force);
     OST_TRY(ost_agree(problem->ctx, ost_eigenstrain_force(problem->mesh, &field, 1.0, search->steps.force)));
     return ost_steps_take_rows(&search->steps, search->steps.q.rows);
@@ -80,7 +86,7 @@ static OstStatus adjoint_load(Search *search, const OstInterest *interest, doubl
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     if (interest->strain)
-        return strain_load(search, interest->strain);
+        return strain_load(search, interest);
     if (!interest->moved) {
         memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
     } else if (stiffness->turned_by) {
@@ -291,8 +297,7 @@ static OstStatus adjoint_volume(const OstProblem *problem, const Wanted *wanted,
     if (!interest->moved)
         OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &zero, 3 * (size_t)problem->mesh->node_count)));
     ost_problem_at_pressure(problem, NULL, &field, &strained);
-    field.region_eigenstrain = NULL;
-    field.tet_eigenstrain = interest->strain;
+    take_strain(interest, &field);
     OstStatus status = ost_pressure_volume(problem->pressures, &field, OST_FORMULATION_LINEAR, 1.0,
                                            interest->moved ? interest->moved : zero, g, NULL);
     for (OstLocal i = 0; i < problem->pressures->owned; i++)
@@ -358,8 +363,7 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     for (size_t i = 0; i < numbers; i++)
         z[i] = search->steps.u[i] + (interest->moved ? interest->moved[i] : 0.0);
     ost_problem_at_pressure(problem, of_tets, &field, &state);
-    field.region_eigenstrain = NULL;
-    field.tet_eigenstrain = interest->strain;
+    take_strain(interest, &field);
     const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR, -swelling};
     OST_TRY_DONE(mixed_adjoint_residual(search, &of));
     OST_TRY_DONE(find_surplus(search, wanted, NULL, adjoint));
@@ -378,8 +382,7 @@ static OstStatus strained_residual(Search *search, const OstInterest *interest)
     OstMaterialField field;
     OstProblem state;
     ost_problem_at_pressure(search->estimate->problem, NULL, &field, &state);
-    field.region_eigenstrain = NULL;
-    field.tet_eigenstrain = interest->strain;
+    take_strain(interest, &field);
     OST_TRY(mixed_adjoint_residual(search, &(OstState){&state, steps->u, 1.0, OST_FORMULATION_LINEAR, 0.0}));
     for (size_t i = 0; i < 3 * (size_t)search->estimate->problem->mesh->node_count; i++)
         steps->u[i] /= steps->size;

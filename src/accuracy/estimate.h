@@ -11,8 +11,9 @@ typedef struct OstInterest {
                      rotations are large, by how much less it does; or NULL */
     double
         *moved; /* of a reaction: 3 × node_count, a displacement that is 1 along the reaction at its nodes; or NULL */
-    double *strain; /* of a mean stress: 6 × tet_count, the eigenstrain (along material axes) whose forces are by how
-                       much it grows with each displacement, and with a mixed form's pressures; or NULL */
+    double *strain; /* of a mean stress: 6 × tet_count, the eigenstrain whose forces are by how much it grows with each
+                       displacement, and with a mixed form's pressures; or NULL */
+    int strain_in_world; /* is it in world axes, not along material ones? */
     double direction[3]; /* of a reaction: along it, or along the axis of its moment */
     double value;
     double doubt; /* of a reaction: the part that other supports of the same nodes may bear as well */
@@ -53,6 +54,8 @@ typedef struct OstSurplus {
     double *tet_error;    /* owned_tets: each tet's share of the squared error in the norm of the energy */
     double *displacement; /* 3 × node_count: e at the nodes, ghosts included */
     double *stress;       /* 6 × owned_tets: what it adds to the mean stress of the tet */
+    double *along_axes;   /* 6 × owned_tets: what it adds to the same along material axes, as these vary in the tet,
+                             beside that along the tet's own */
     float *node_stress;   /* 6 numbers for each node of each tet, ghosts included: what it adds to the stress there */
 } OstSurplus;
 

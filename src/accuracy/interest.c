@@ -7,7 +7,6 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "fields/stress_measure.h"
-#include "material/field_data.h"
 #include "mesh/nearest.h"
 
 #include <math.h>
@@ -170,23 +169,14 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     return status;
 }
 
-/* The strain whose product with a stress is the measure, along the tet's material axes. */
-static void find_strain(const OstMaterialField *field, OstLocal tet, OstStressMeasure measure, double strain[6])
+/* The strain whose product with a stress is the measure, in world axes or along material ones. */
+static void find_strain(OstStressMeasure measure, double strain[6])
 {
-    double axes[9], turned[9], of_world[6] = {0.0};
     memset(strain, 0, 6 * sizeof *strain);
-    if (measure >= OST_STRESS_MEASURE_11 && measure <= OST_STRESS_MEASURE_31) {
-        strain[measure - OST_STRESS_MEASURE_11] = 1.0;
-        return;
-    }
     for (int i = 0; i < 3 && measure == OST_STRESS_MEASURE_PRESSURE; i++)
-        of_world[i] = -1.0 / 3.0;
-    if (measure < OST_STRESS_MEASURE_11)
-        of_world[measure] = 1.0;
-    ost_field_axes(field, tet, axes);
-    for (int n = 0; n < 9; n++)
-        turned[n] = axes[3 * (n % 3) + n / 3];
-    ost_strain_to_world(of_world, turned, strain);
+        strain[i] = -1.0 / 3.0;
+    if (measure <= OST_STRESS_MEASURE_31)
+        strain[measure % 6] = 1.0;
 }
 
 static OstStatus of_mean_stress(const OstProblem *problem, const OstWatch *watch, OstInterest *interest)
@@ -195,10 +185,11 @@ static OstStatus of_mean_stress(const OstProblem *problem, const OstWatch *watch
     const int every = ost_is_every_region(watch->region);
     double volume = 0.0;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->strain, 6 * (size_t)mesh->tet_count)));
+    interest->strain_in_world = watch->component < (int)OST_STRESS_MEASURE_11;
     for (OstLocal tet = 0; tet < mesh->tet_count; tet++) {
         if (!every && strcmp(mesh->regions.name[mesh->tet_region[tet]], watch->region) != 0)
             continue;
-        find_strain(problem->field, tet, (OstStressMeasure)watch->component, interest->strain + 6 * (size_t)tet);
+        find_strain((OstStressMeasure)watch->component, interest->strain + 6 * (size_t)tet);
         if (tet < mesh->owned_tets)
             volume += fabs(ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet)));
     }

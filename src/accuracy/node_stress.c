@@ -98,12 +98,13 @@ static void find_small(const OstElasticity *at_nodes, int nodes, const OstSimd *
 
 /* Cauchy's, of the consistent form: by how much it changes from `given`, in a frame that turns with the tet. */
 static void find_large(const OstElasticity *at_nodes, int nodes, const OstSimd *given, const OstSimd *slope,
-                       OstSimd *stress)
+                       OstSimd *rotation, OstSimd *stress)
 {
     OstSimd change[6 * OST_MAX_TET_NODES] = {{0}}, of_stretch[6 * OST_MAX_TET_NODES];
     OstPolar polar[OST_MAX_TET_NODES];
     for (int a = 0; a < nodes; a++) {
         ost_polar(given + 9 * a, &polar[a]);
+        ost_polar_rotation(&polar[a], rotation + 9 * a);
         ost_biot_strain_change(&polar[a], slope + 9 * a, change + 6 * a);
     }
     take_stress(at_nodes, nodes, change, of_stretch);
@@ -127,6 +128,7 @@ typedef struct Visit {
     int functions;
     OstBatch batch;
     OstElasticity at_nodes;
+    OstSimd rotation[9 * OST_MAX_TET_NODES]; /* where rotations are large */
 } Visit;
 
 static void find_added(Visit *visit, OstSimd *found)
@@ -149,7 +151,7 @@ static void find_added(Visit *visit, OstSimd *found)
     ost_batch_gather_vectors(&visit->batch, nodes, base, moved);
     for (int a = 0; a < nodes; a++)
         find_slope(visit->element, &visit->batch, a, moved, 0, more, given + 9 * a);
-    find_large(&visit->at_nodes, nodes, given, slope, found);
+    find_large(&visit->at_nodes, nodes, given, slope, visit->rotation, found);
 }
 
 /* Of a polynomial's values at the nodes: of degree 1 by the vertices, of degree 2 by the middles of the edges too. */
@@ -157,11 +159,38 @@ static void add_mean(int nodes, const OstSimd *found, int slot, double mean[6])
 {
     for (int p = 0; p < 6; p++)
         for (int a = 0; a < nodes; a++)
-            mean[p] += (nodes == 4 ? 0.25 : a < 4 ? -0.05 : 0.2) * found[6 * a + p][slot];
+            mean[p] += (nodes == 4 ? 0.25 : ost_tet10_share(a)) * found[6 * a + p][slot];
+}
+
+/* Of quadratic tets: turned back as each node has turned, then along the axes there. */
+static void add_along_axes(const Visit *visit, const OstSimd *found, int slot, double along_axes[6])
+{
+    const double *turned_by = visit->operator->turned_by;
+    const OstMaterialField *field = visit->operator->problem->field;
+    const OstLocal tet = visit->batch.tet[slot];
+    double x[3 * OST_MAX_TET_NODES], stress[6 * OST_MAX_TET_NODES], share[OST_MAX_TET_NODES], more[6];
+    if (!ost_field_has_formula(field, field->tet_region[tet]))
+        return;
+    for (int n = 0; n < 30; n++)
+        x[n] = visit->batch.x[n][slot];
+    for (int n = 0; n < 60; n++)
+        stress[n] = found[n][slot];
+    for (int a = 0; a < 10 && turned_by; a++) {
+        double given[6], back[9];
+        memcpy(given, stress + 6 * a, sizeof given);
+        for (int n = 0; n < 9; n++)
+            back[n] = visit->rotation[9 * a + 3 * (n % 3) + n / 3][slot];
+        ost_tensor_along(given, back, stress + 6 * a);
+    }
+    for (int a = 0; a < 10; a++)
+        share[a] = ost_tet10_share(a);
+    ost_vary_axes(field, tet, 10, share, x, stress, more);
+    for (int p = 0; p < 6; p++)
+        along_axes[p] += more[p];
 }
 
 void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
-                             float *at_nodes, double *mean)
+                             float *at_nodes, double *mean, double *along_axes)
 {
     const OstProblem *problem = operator->problem;
     const OstMesh *mesh = problem->mesh;
@@ -193,6 +222,8 @@ void ost_operator_add_stress(const OstOperator *operator, const double * u, cons
                 at_nodes[width * tet + n] += (float)found[n][slot];
             if (mean && first + slot < mesh->owned_tets)
                 add_mean(nodes, found, slot, mean + 6 * tet);
+            if (along_axes && first + slot < mesh->owned_tets)
+                add_along_axes(&visit, found, slot, along_axes + 6 * tet);
         }
     }
 }

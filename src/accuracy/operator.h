@@ -48,8 +48,9 @@ void ost_operator_energy(const OstOperator *operator, const double * u, const fl
 
 /* Local. Adds what `factor` times a displacement, and the pressure of a mixed form's field, add to the stress, in a
  * frame that turns with the tet where rotations are large. Of each tet, ghosts included, at its nodes, 6 numbers each,
- * not over the unit; and the mean over each owned tet. Either may be NULL, as may `w`: no functions. */
+ * not over the unit; the mean over each owned tet; and what the mean along material axes has more, as they vary within
+ * it (ost_vary_axes). Each may be NULL, as may `w`: no functions. */
 void ost_operator_add_stress(const OstOperator *operator, const double * u, const float *w, double factor,
-                             float *at_nodes, double *mean);
+                             float *at_nodes, double *mean, double *along_axes);
 
 #endif

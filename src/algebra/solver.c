@@ -113,6 +113,15 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
     }
 }
 
+/* A preconditioner that is no good has others beside it, where the case does not fix the method. */
+static OstStatus raise_fixed(const OstSolver *solver, OstStatus status)
+{
+    char last[OST_ERROR_TEXT_SIZE];
+    snprintf(last, sizeof last, "%s", ost_error_text(solver->ctx));
+    return OST_RAISE(solver->ctx, status, "%s; leave out 'method: %s' and the solver goes on with another one", last,
+                     ost_method_name(solver->plan.options.method));
+}
+
 /* Raises all that was tried, if that was more than one strategy; `status` and its text are those of the last. */
 static OstStatus raise_all(OstContext *ctx, const OstSolveStep *step, int steps, OstStatus status)
 {
@@ -448,6 +457,9 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     OST_THEN(ost_goal_verdict(&goal));
     if (status == OST_NOT_CONVERGED && goal.end == OST_END_STALLED && is_singular(solver, &goal))
         status = raise_singular(solver->ctx);
+    if (status == OST_NOT_CONVERGED && goal.end == OST_END_PRECONDITIONER && !solver->is_shared &&
+        solver->plan.options.method != OST_METHOD_AUTO)
+        status = raise_fixed(solver, status);
     if (status != OST_SUCCESS)
         return raise_all(solver->ctx, report->step, report->steps, status);
     if (goal.crude || solver->saddle)

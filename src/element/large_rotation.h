@@ -57,10 +57,13 @@ void ost_classical_displacement(const OstElement *element, const OstSimd *x, con
 void ost_large_rotation_means(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                               const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
 
-/* Cauchy's stress, the symmetric part of P F' / det F, in world axes: the mean over each deformed tet, and that at its
- * nodes (6 a node), where `at_nodes` has the elasticity. Classical: P = R C : strain of d. */
+/* Cauchy's stress, the symmetric part of P F' / det F, in world axes: the mean over each deformed tet, and that at
+ * points, or its nodes (6 each), where `at_points` has the elasticity. Classical: P = R C : strain of d. */
 void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                     const OstElasticity *elasticity, const OstSimd *u, OstSimd stress[6]);
+void ost_large_rotation_stress_at(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                  const OstElasticity *elasticity, const OstElasticity *at_points, int points,
+                                  const OstQuadraturePoint *at, const OstSimd *u, OstSimd *stress);
 void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                      const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
                                      OstSimd *stress);

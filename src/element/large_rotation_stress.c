@@ -128,20 +128,28 @@ void ost_large_rotation_mean_stress(const OstElement *element, OstFormulation fo
     ost_divide_by_volume(&now, stress);
 }
 
+void ost_large_rotation_stress_at(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                                  const OstElasticity *elasticity, const OstElasticity *at_points, int points,
+                                  const OstQuadraturePoint *at, const OstSimd *u, OstSimd *stress)
+{
+    Tets tets = {.element = element, .formulation = formulation, .x = x, .u = u};
+    prepare(&tets, elasticity);
+    for (int q = 0; q < points; q++, stress += 6) {
+        OstPoint point;
+        OstSimd jacobian;
+        element->evaluate(x, &at[q], &point);
+        kirchhoff(&tets, at_points, ost_elasticity_at(at_points, q), at[q].at, &point, stress, &jacobian);
+        ost_divide_by_volume(&jacobian, stress);
+    }
+}
+
 void ost_large_rotation_nodal_stress(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                      const OstElasticity *elasticity, const OstElasticity *at_nodes, const OstSimd *u,
                                      OstSimd *stress)
 {
-    Tets tets = {.element = element, .formulation = formulation, .x = x, .u = u};
-    prepare(&tets, elasticity);
-    for (int a = 0; a < element->nodes; a++, stress += 6) {
-        OstQuadraturePoint node = {.weight = 1.0};
-        OstPoint point;
-        OstSimd jacobian;
+    OstQuadraturePoint node[OST_MAX_TET_NODES] = {{.weight = 1.0}};
+    for (int a = 0; a < element->nodes; a++)
         for (int end = 0; end < 2; end++)
-            node.at[ost_tet10_ends[a][end]] += 0.5;
-        element->evaluate(x, &node, &point);
-        kirchhoff(&tets, at_nodes, ost_elasticity_at(at_nodes, a), node.at, &point, stress, &jacobian);
-        ost_divide_by_volume(&jacobian, stress);
-    }
+            node[a].at[ost_tet10_ends[a][end]] += 0.5;
+    ost_large_rotation_stress_at(element, formulation, x, elasticity, at_nodes, element->nodes, node, u, stress);
 }

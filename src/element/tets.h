@@ -21,6 +21,17 @@ extern const OstElement ost_tet10;
 /* The two vertices of a mid-edge node; a vertex twice for itself. */
 extern const int ost_tet10_ends[10][2];
 
+/* The share of a node in the mean over a tet of what is quadratic in it, and known at the nodes. */
+static inline double ost_tet10_share(int node)
+{
+    return node < 4 ? -0.05 : 0.2;
+}
+
+/* Local. By how much the sum of stresses at points of a tet, each times its weight, is larger along the material axes
+ * there than along the tet's own: of points x, 3 numbers each. */
+void ost_vary_axes(const OstMaterialField *field, OstLocal tet, int points, const double *weight, const double *x,
+                   const double *stress, double more[6]);
+
 /* Local. The stiffness of tets with straight edges and a uniform C (an upper triangle), without quadrature: its blocks
  * are linear combinations of the blocks of the linear tets on the same vertices. */
 void ost_tet10_straight_blocks(const OstSimd *x, const OstSimd *c, OstSimd *blocks);

@@ -25,6 +25,19 @@ void ost_strain_to_world(const double strain[6], const double axes[9], double wo
     }
 }
 
+void ost_tensor_along(const double tensor[6], const double axes[9], double own[6])
+{
+    for (int p = 0; p < 6; p++) {
+        const double *a = axes + 3 * (p % 3);
+        const double *b = axes + 3 * ((p < 3 ? p : p + 1) % 3);
+        own[p] = 0.0;
+        for (int i = 0; i < 3; i++) {
+            const int j = (i + 1) % 3;
+            own[p] += tensor[i] * a[i] * b[i] + tensor[3 + i] * (a[i] * b[j] + a[j] * b[i]);
+        }
+    }
+}
+
 void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
                                double strain[6])
 {
@@ -32,12 +45,15 @@ void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, doub
     for (size_t p = 0; p < 6; p++) {
         if (field->region_eigenstrain)
             own[p] += field->region_eigenstrain[6 * (size_t)field->tet_region[tet] + p];
-        if (field->tet_eigenstrain)
+        if (field->tet_eigenstrain && !field->tet_eigenstrain_in_world)
             own[p] += field->tet_eigenstrain[6 * (size_t)tet + p];
     }
     ost_strain_to_world(own, axes, world);
-    for (int p = 0; p < 6; p++)
+    for (size_t p = 0; p < 6; p++) {
+        if (field->tet_eigenstrain && field->tet_eigenstrain_in_world)
+            world[p] += field->tet_eigenstrain[6 * (size_t)tet + p];
         strain[p] += share * world[p];
+    }
 }
 
 static OstStatus copy(OstContext *ctx, size_t count, const double *given, double **kept)

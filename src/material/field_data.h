@@ -40,8 +40,9 @@ struct OstMaterialField {
 
     double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
 
-    double *region_eigenstrain; /* region_count × 6, in material axes; NULL if no region has one */
-    double *tet_eigenstrain;    /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
+    double *region_eigenstrain;   /* region_count × 6, in material axes; NULL if no region has one */
+    double *tet_eigenstrain;      /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
+    int tet_eigenstrain_in_world; /* is that in world axes? */
 };
 
 /* Local. The first region that is incompressible (nu = 1/2), or -1. */
@@ -55,6 +56,9 @@ static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet
 
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);
+
+/* Local. A symmetric tensor 11 22 33 12 23 31 along axes (rows). */
+void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
 
 /* Local. Adds `share` of a tet's eigenstrain to `strain`, in the world axes that the material's `axes` are given in. */
 void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],

@@ -73,6 +73,8 @@ struct OstResult {
                                    or NULL */
     double *left_out_reaction;  /* 3 × owned_nodes: the same of the reactions, or NULL */
     double *stress_surplus;     /* 6 × owned_tets: what it adds to the mean stress, or NULL */
+    double *along_axes_surplus; /* 6 × owned_tets: what that along material axes has more, as they vary within the tet,
+                                   or NULL */
     float *node_stress_surplus; /* 6 for each node of each tet: what it adds to the stress there, or NULL */
     OstWatchedReaction *reactions; /* one for each quantity watched, or NULL */
     OstInterestError interest;     /* of the quantity that the case asks about */

@@ -9,19 +9,6 @@
 
 /* --- of one tensor --- */
 
-void ost_tensor_along(const double tensor[6], const double axes[9], double own[6])
-{
-    for (int p = 0; p < 6; p++) {
-        const double *a = axes + 3 * (p % 3);
-        const double *b = axes + 3 * ((p < 3 ? p : p + 1) % 3);
-        own[p] = 0.0;
-        for (int i = 0; i < 3; i++) {
-            const int j = (i + 1) % 3;
-            own[p] += tensor[i] * a[i] * b[i] + tensor[3 + i] * (a[i] * b[j] + a[j] * b[i]);
-        }
-    }
-}
-
 double ost_von_mises(const double stress[6])
 {
     double sum = 0.0;

@@ -22,8 +22,7 @@ OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double
  * OST_MOST_LOAD_FACTOR: by any factor, or the material has no strengths. */
 double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion, const double stress[6]);
 
-/* Local. Of a symmetric tensor 11 22 33 12 23 31: components along axes (rows); von Mises' number. */
-void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
+/* Local. Of a symmetric tensor 11 22 33 12 23 31: von Mises' number. */
 double ost_von_mises(const double stress[6]);
 
 /* Local. The mean of a tet's vertices. */

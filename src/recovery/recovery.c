@@ -7,6 +7,7 @@
 #include "core/parallel/halo.h"
 #include "core/together/together.h"
 #include "element/large_rotation.h"
+#include "element/shape_functions.h"
 #include "element/strain_batch.h"
 #include "element/tets.h"
 #include "fields/output_field.h"
@@ -169,6 +170,103 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
     stress_of_batch(result, element, &batch, &at_nodes, all);
     for (int n = 0; n < 6 * element->nodes; n++)
         stress[n] = all[n][0];
+}
+
+/* Stress at the points of a rule, 6 numbers each. */
+static void stress_at(const OstResult *result, const OstElement *element, const OstBatch *batch,
+                      const OstQuadrature *rule, const OstElasticity *at_points, OstSimd *stress)
+{
+    OstSimd u[3 * OST_MAX_TET_NODES];
+    OstMeans means;
+    ost_batch_gather_vectors(batch, element->nodes, result->displacement, u);
+    if (result->formulation != OST_FORMULATION_LINEAR) {
+        ost_large_rotation_stress_at(element, result->formulation, batch->x, &batch->elasticity, at_points, rule->count,
+                                     rule->point, u, stress);
+        return;
+    }
+    if (at_points->by_mean)
+        element->means(batch->x, &batch->elasticity, u, &means);
+    for (int q = 0; q < rule->count; q++, stress += 6) {
+        const int at = ost_elasticity_at(at_points, q);
+        OstSimd slope[9], strain[6], elastic[6], pressure;
+        OstPoint point;
+        element->evaluate(batch->x, &rule->point[q], &point);
+        ost_displacement_gradient(element->nodes, &point, u, slope);
+        for (int i = 0; i < 3; i++) {
+            strain[i] = slope[4 * i];
+            strain[3 + i] = slope[3 * i + (i + 1) % 3] + slope[3 * ((i + 1) % 3) + i];
+        }
+        ost_elastic_strain(at_points, at, strain, elastic);
+        ost_simd_stress(at_points->c[at], elastic, stress);
+        if (at_points->mixed)
+            ost_pressure_at(&batch->elasticity, rule->point[q].at, &pressure);
+        for (int p = 0; p < 6; p++) {
+            if (at_points->by_mean)
+                stress[p] += means.stiff * at_points->m[at][p];
+            if (at_points->mixed)
+                stress[p] += pressure * at_points->m[at][p];
+        }
+    }
+}
+
+/* A stress less what the tet has turned. */
+static void turn_back(const double rotation[9], double stress[6])
+{
+    double given[6], frame[9];
+    memcpy(given, stress, sizeof given);
+    for (int n = 0; n < 9; n++)
+        frame[n] = rotation[3 * (n % 3) + n / 3];
+    ost_tensor_along(given, frame, stress);
+}
+
+static void find_places(const OstMesh *mesh, const OstBatch *batch, const OstQuadrature *rule, OstSimd *places)
+{
+    OstSimd x[3 * OST_MAX_TET_NODES];
+    ost_batch_gather_vectors(batch, mesh->nodes_per_tet, mesh->coordinates, x);
+    for (int q = 0; q < rule->count; q++) {
+        double shape[OST_MAX_TET_NODES];
+        ost_shape_values(mesh->nodes_per_tet, rule->point[q].at, shape);
+        for (int i = 0; i < 3; i++) {
+            places[3 * q + i] = shape[0] * x[i];
+            for (int a = 1; a < mesh->nodes_per_tet; a++)
+                places[3 * q + i] += shape[a] * x[3 * a + i];
+        }
+    }
+}
+
+void ost_tet_mean_along_axes(const OstResult *result, OstLocal tet, double own[6])
+{
+    const OstElement *element = ost_element_of(result->mesh->nodes_per_tet);
+    const OstQuadrature *rule = &ost_tet_degree5;
+    OstSimd places[3 * OST_MAX_POINTS], all[6 * OST_MAX_POINTS];
+    double x[3 * OST_MAX_POINTS], stress[6 * OST_MAX_POINTS], weight[OST_MAX_POINTS], more[6], volume = 0.0;
+    OstBatch batch;
+    OstElasticity at_points;
+    ost_result_material_stress(result, tet, result->stress + 6 * (size_t)tet, own);
+    if (element->nodes != 10 || !ost_field_has_formula(result->field, result->mesh->tet_region[tet]))
+        return;
+    ost_elasticity_clear(&batch.elasticity);
+    ost_elasticity_clear(&at_points);
+    batch.elasticity.eigen_share = at_points.eigen_share = result->t;
+    ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
+    find_places(result->mesh, &batch, rule, places);
+    for (int q = 0; q < rule->count; q++) {
+        OstPoint point;
+        element->evaluate(batch.x, &rule->point[q], &point);
+        weight[q] = point.volume[0];
+        volume += weight[q];
+        for (int i = 0; i < 3; i++)
+            x[3 * q + i] = places[3 * q + i][0];
+    }
+    ost_elasticity_gather(&at_points, result->field, batch.tet, rule->count, places);
+    stress_at(result, element, &batch, rule, &at_points, all);
+    for (int n = 0; n < 6 * rule->count; n++)
+        stress[n] = all[n][0];
+    for (int q = 0; q < rule->count && result->rotation; q++)
+        turn_back(result->rotation + 9 * (size_t)tet, stress + 6 * q);
+    ost_vary_axes(result->field, tet, rule->count, weight, x, stress, more);
+    for (int p = 0; p < 6; p++)
+        own[p] += more[p] / volume;
 }
 
 /* The rotation of a tet's mean F under the displacement, and under that with the estimated error. */

@@ -21,6 +21,10 @@ OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansV
 /* Local. Stress at the nodes of one tet, as it is in that tet: 6 numbers a node, world axes. */
 void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress);
 
+/* Local. The mean of a tet's stress along its material axes, which have turned with it where rotations are large: as
+ * they vary within it, if it is quadratic. The mean stress has been recovered. */
+void ost_tet_mean_along_axes(const OstResult *result, OstLocal tet, double own[6]);
+
 /* Local. Turns stresses that the estimate has added to (`count`, 6 numbers each) as the error of the displacement turns
  * the tet, for a measure along the world's axes; material axes turn with it. Nothing is done by linear theory. */
 void ost_turn_with_error(const OstResult *result, OstLocal tet, OstStressMeasure measure, int count, double *stress);

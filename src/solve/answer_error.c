@@ -59,6 +59,18 @@ static int watches_stress(const OstProblem *problem, int is_mean)
     return any;
 }
 
+/* Is a mean stress watched along axes that vary within tets? */
+static int watches_varying_axes(const OstProblem *problem)
+{
+    int any = 0;
+    for (int w = 0; problem->scene && w < problem->scene->c->watch_count; w++) {
+        const OstWatch *watch = &problem->scene->c->watches[w];
+        any |= ost_watch_is_linear_mean(watch) && watch->component >= (int)OST_STRESS_MEASURE_11 &&
+               watch->component <= (int)OST_STRESS_MEASURE_31;
+    }
+    return any && problem->mesh->nodes_per_tet == 10 && problem->field->region_formula;
+}
+
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
 {
     const OstMesh *mesh = result->mesh;
@@ -70,6 +82,8 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
         OST_THEN(OST_NEW(result->ctx, &result->surplus, 3 * (size_t)mesh->node_count));
     if (watches_stress(problem, 1) && !result->stress_surplus)
         OST_THEN(OST_NEW(result->ctx, &result->stress_surplus, 6 * (size_t)mesh->owned_tets));
+    if (watches_varying_axes(problem) && !result->along_axes_surplus)
+        OST_THEN(OST_NEW(result->ctx, &result->along_axes_surplus, 6 * (size_t)mesh->owned_tets));
     if (watches_stress(problem, 0) && !result->node_stress_surplus)
         OST_THEN(OST_NEW(result->ctx, &result->node_stress_surplus,
                          6 * (size_t)mesh->nodes_per_tet * (size_t)mesh->tet_count));
@@ -78,7 +92,8 @@ OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
 
 OstSurplus ost_result_surplus(const OstResult *result)
 {
-    return (OstSurplus){result->tet_error, result->surplus, result->stress_surplus, result->node_stress_surplus};
+    return (OstSurplus){result->tet_error, result->surplus, result->stress_surplus, result->along_axes_surplus,
+                        result->node_stress_surplus};
 }
 
 static int asks_of_quantity(const OstProblem *problem)
@@ -236,6 +251,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
         OST_FREE(result->tet_error);
         OST_FREE(result->surplus);
         OST_FREE(result->stress_surplus);
+        OST_FREE(result->along_axes_surplus);
         OST_FREE(result->node_stress_surplus);
     }
     for (OstLocal tet = 0; tet < result->mesh->owned_tets && result->answer.known; tet++)

@@ -11,7 +11,8 @@ typedef enum {
     OST_REST_SLOW,     /* too many iterations */
     OST_REST_STALLED,  /* no step along the correction lowers the energy */
     OST_REST_NO_STEP,  /* the linear solver found no correction */
-    OST_REST_UNSTABLE  /* at rest, but not stable, and nothing stable was found near by */
+    OST_REST_UNSTABLE, /* at rest, but not stable, and nothing stable was found near by */
+    OST_REST_CREEPS    /* at rest, but after so short load steps that the last is out of sight */
 } OstRest;
 
 /* The energy may rise above that of the last iteration, but not above all of so many. */

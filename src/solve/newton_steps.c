@@ -27,6 +27,11 @@ enum {
 /* The least load step, as a share of what an advance is asked for. */
 static const double least_step = 1.0 / 4096.0;
 
+/* The classical form's stiffness lacks how R changes: its iterations converge linearly, and where a mode of it is stiff
+ * only load steps so short come to rest. After so many in a row it would go on for hours. */
+static const double short_step = 1.0 / 300.0;
+enum { MOST_SHORT_STEPS = 20 };
+
 /* Where the stiffness turned indefinite and the state found is farther from the predicted one than that is from the
  * last, the body jumps: the load step is cut back to this share of the advance, to tell where, and then taken. */
 static const double jump_step = 1.0 / 16.0;
@@ -404,8 +409,16 @@ static OstStatus accept(OstNewton *newton, const Attempt *attempt, double to, Os
     return attempt->jumps && jumps_by_tangent(newton) && attempt->t < to ? find_slope(newton, to, state) : OST_SUCCESS;
 }
 
+/* Has the classical form come to rest after short load steps alone? */
+static int creeps(const OstNewton *newton, double share, int *steps)
+{
+    *steps = share < short_step && newton->problem->formulation == OST_FORMULATION_CLASSICAL ? *steps + 1 : 0;
+    return *steps >= MOST_SHORT_STEPS;
+}
+
 static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
 {
+    int short_steps = 0;
     const double span = to - state->t;
     const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
     const double least_jump_step = jumps_by_tangent(newton) ? jump_step_by_tangent : jump_step;
@@ -430,6 +443,8 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
         tell(newton, state, &attempt);
         if (accepted) {
             OST_TRY(accept(newton, &attempt, to, state));
+            if (state->t < to && creeps(newton, step / span, &short_steps))
+                return ost_newton_give_up(newton, state, state->t + step, OST_REST_CREEPS);
             continue;
         }
         if (!may_cut && !follows)

@@ -49,7 +49,12 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
     OstWorstTet worst;
     OST_TRY(describe_place(newton, place, sizeof place));
     OST_TRY(ost_problem_worst_tet(newton->problem, newton->displacement, &worst));
-    if (worst.inverted > 0)
+    if (rest == OST_REST_CREEPS)
+        snprintf(reason, sizeof reason,
+                 "by the classical formulation only load steps as short as %.2g come to rest, and the end is out of "
+                 "sight; leave out 'formulation' (the consistent one)",
+                 t - state->t);
+    else if (worst.inverted > 0)
         snprintf(reason, sizeof reason,
                  "%lld tets are turned inside out there, the worst of them tet %lld of region '%.60s' at (%.4g, %.4g, "
                  "%.4g): refine the mesh there, spread the load, or use stiffer or less compressible material",
@@ -70,8 +75,9 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
                  : rest == OST_REST_STALLED ? "no step along the correction lowers the energy"
                                             : "the linear solver finds no correction");
     /* Tets turned inside out say themselves where it is. */
+    const int has_place = worst.inverted > 0 || rest == OST_REST_CREEPS;
     return OST_RAISE(newton->ctx, OST_NOT_CONVERGED, "%s %.6g%s and not to %.6g: %s%s%s",
                      on_path ? "the path is followed up to t =" : "the load is followed up to", state->t,
-                     on_path ? "" : " of it", t, reason,
-                     worst.inverted > 0 ? "" : ". The last correction is largest in ", worst.inverted > 0 ? "" : place);
+                     on_path ? "" : " of it", t, reason, has_place ? "" : ". The last correction is largest in ",
+                     has_place ? "" : place);
 }

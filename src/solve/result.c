@@ -61,6 +61,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->node_stress_surplus);
     OST_FREE((*result)->reactions);
     OST_FREE((*result)->stress_surplus);
+    OST_FREE((*result)->along_axes_surplus);
     OST_FREE((*result)->interest.share);
     OST_FREE(*result);
 }

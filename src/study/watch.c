@@ -160,18 +160,26 @@ static int has_given_forces(const OstCase *c)
     return some;
 }
 
+/* Where loads do less of the work than this, supports alone strain the body. */
+static const double next_to_nothing = 1e-3;
+
 /* A body that loads alone strain has less energy than the exact answer, by half the square of the error; one that
- * displacements alone strain has more. Where both act, or an eigenstrain, or springs, there is no such rule. */
+ * displacements alone strain has more. Of a moved coupling e is that of its force, which falls as the body gives way.
+ * Where both act, or an eigenstrain, or springs, there is no such rule; nor one that leaves less than nothing. */
 static double energy_error(const OstScene *scene, const OstResult *result)
 {
     const OstEffects *effects = &scene->plan.effects;
-    const int is_moved = ost_effect_on(effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) || is_moved_by_coupling(scene);
+    const OstAnswerError *answer = &result->answer;
+    const double half = 0.5 * answer->energy_norm * answer->energy_norm, energy = result->checks.strain_energy;
+    const int is_moved = ost_effect_on(effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT);
     const int is_other = ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN) || scene->c->spring_count > 0;
-    if (!result->answer.known || result->formulation != OST_FORMULATION_LINEAR || is_other ||
-        (is_moved && has_given_forces(scene->c)))
+    if (!answer->known || result->formulation != OST_FORMULATION_LINEAR || is_other)
         return NAN;
-    const double half = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
-    return is_moved ? -half : half;
+    if (is_moved_by_coupling(scene))
+        return has_given_forces(scene->c) ? NAN : -half * energy / (energy + half);
+    if (!is_moved)
+        return half;
+    return answer->by_loads < next_to_nothing && half < energy ? -half : NAN;
 }
 
 static const char *why_no_energy(const OstScene *scene, const OstResult *result)
@@ -180,7 +188,8 @@ static const char *why_no_energy(const OstScene *scene, const OstResult *result)
         return "with large rotations it is not half the square of the error in the norm of the energy";
     return ost_effect_on(&scene->plan.effects, OST_EFFECT_EIGENSTRAIN) ? "a part swells or contracts of itself"
            : scene->c->spring_count > 0                                ? "springs have energy too"
-                                                                       : "both loads and prescribed displacements act";
+           : result->answer.by_loads < next_to_nothing ? "the mesh is too coarse: by the estimate no energy is left"
+                                                       : "both loads and prescribed displacements act";
 }
 
 static const char *why_no_reaction(const OstScene *scene, const OstResult *result)

@@ -47,6 +47,13 @@ static OstStatus value_of(const OstResult *result, const OstWatch *watch, OstLoc
     return value_at(result, watch, tet, result->stress + 6 * (size_t)tet, value);
 }
 
+/* A mean along material axes is that along the axes as they vary within the tet. */
+static int varies(const OstWatch *watch)
+{
+    return watch->take == OST_TAKE_MEAN && watch->kind == OST_WATCH_STRESS &&
+           watch->component >= (int)OST_STRESS_MEASURE_11 && watch->component <= (int)OST_STRESS_MEASURE_31;
+}
+
 /* A load factor is made of stresses along the material axes. */
 static OstStressMeasure measure_of(const OstWatch *watch)
 {
@@ -68,6 +75,8 @@ static OstStatus surplus_of(const OstResult *result, const OstWatch *watch, OstL
     ost_turn_with_error(result, tet, (OstStressMeasure)watch->component, 1, stress);
     OST_TRY(ost_stress_measure(result, tet, stress, (OstStressMeasure)watch->component, more));
     *more -= value;
+    if (varies(watch) && result->along_axes_surplus)
+        *more += result->along_axes_surplus[6 * (size_t)tet + (size_t)(watch->component - (int)OST_STRESS_MEASURE_11)];
     return OST_SUCCESS;
 }
 
@@ -84,11 +93,15 @@ static OstStatus go_over(const OstResult *result, const OstWatch *watch, double 
 {
     const OstMesh *mesh = result->mesh;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
-        double value, more;
+        double value, more, own[6];
         if (!is_in(watch, mesh, tet))
             continue;
         OST_TRY(value_of(result, watch, tet, &value));
         OST_TRY(surplus_of(result, watch, tet, value, &more));
+        if (varies(watch)) {
+            ost_tet_mean_along_axes(result, tet, own);
+            value = own[watch->component - (int)OST_STRESS_MEASURE_11];
+        }
         const double volume = volume_of(mesh, tet);
         over->sum += volume * value;
         over->more += volume * more;
