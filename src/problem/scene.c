@@ -8,6 +8,7 @@
 #include "core/parallel/free_memory.h"
 #include "fields/output_field.h"
 #include "formats/serial/formats.h"
+#include "material/directions.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
 #include "problem/scene_parts.h"
@@ -40,7 +41,7 @@ static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const Os
 
 /* Axes from gradients, in place of those that came with the mesh. Potentials are of the order of the displacement:
  * linear ones made fibres turn from one quadratic tet to the next, and a reaction 7 % too small where it is 1.5 %. */
-static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
+static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     OstStatus status = OST_SUCCESS;
@@ -60,24 +61,37 @@ static int wants_any(const OstScene *scene, const OstSceneMaterials *materials, 
     return 0;
 }
 
-/* The axes of the mesh, with those of gradients and of fields in their place; NULL if there are none of these. */
-static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+/* Quadratic tets alone have directions. */
+static OstStatus make_room(const OstMesh *mesh, OstTetAxes *axes)
+{
+    const size_t tets = (size_t)mesh->tet_count;
+    OST_TRY(OST_NEW(mesh->ctx, &axes->of_tet, 9 * tets));
+    if (mesh->nodes_per_tet == 4)
+        return OST_SUCCESS;
+    ost_ledger_enter(mesh->ctx, OST_EFFECT_VARYING_AXES);
+    OstStatus status = OST_NEW(mesh->ctx, &axes->directions, OST_DIRECTIONS * tets);
+    OST_THEN(OST_NEW(mesh->ctx, &axes->along, 2 * mesh->regions.count));
+    ost_ledger_leave(mesh->ctx);
+    return status;
+}
+
+/* The axes of the mesh, with those of gradients and of fields in their place; none if there are none of these. */
+static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     const int gradients = ost_effect_on(&scene->plan.effects, OST_EFFECT_GRADIENT_AXES);
     const int fields = wants_any(scene, materials, OST_AXES_FIELD);
-    *axes = NULL;
     if (!gradients && !fields)
         return OST_SUCCESS;
     ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
-    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)mesh->tet_count));
+    OstStatus status = ost_agree(scene->ctx, make_room(mesh, axes));
     ost_ledger_leave(scene->ctx);
     if (status == OST_SUCCESS && mesh->tet_axes && mesh->tet_count > 0)
-        memcpy(*axes, mesh->tet_axes, 9 * sizeof **axes * (size_t)mesh->tet_count);
+        memcpy(axes->of_tet, mesh->tet_axes, 9 * sizeof(double) * (size_t)mesh->tet_count);
     if (gradients)
-        OST_THEN(solve_gradient_axes(scene, materials, *axes));
+        OST_THEN(solve_gradient_axes(scene, materials, axes));
     if (fields)
-        OST_THEN(ost_agree(scene->ctx, ost_scene_field_axes(scene, materials, *axes)));
+        OST_THEN(ost_agree(scene->ctx, ost_scene_field_axes(scene, materials, axes)));
     return status;
 }
 
@@ -118,16 +132,18 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     OstContext *ctx = scene->ctx;
     const OstEffects *effects = &scene->plan.effects;
     const OstMesh *mesh = scene->mesh;
-    double *gradient_axes = NULL;
+    OstTetAxes axes = {0};
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
     OST_THEN(ost_scene_check_gradients(scene));
-    OST_THEN(make_axes(scene, materials, &gradient_axes));
+    OST_THEN(make_axes(scene, materials, &axes));
     if (status == OST_SUCCESS)
-        status = ost_scene_locate_axes(scene->c,
-                                       create_field(mesh, effects, materials->material, materials->axes,
-                                                    gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
+        status =
+            ost_scene_locate_axes(scene->c, create_field(mesh, effects, materials->material, materials->axes,
+                                                         axes.of_tet ? axes.of_tet : mesh->tet_axes, &scene->field));
     status = ost_agree(ctx, status);
-    OST_FREE(gradient_axes);
+    if (status == OST_SUCCESS && axes.directions)
+        ost_field_take_directions(scene->field, &axes.along, &axes.directions);
+    OST_FREE(axes.of_tet, axes.directions, axes.along);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_REGIONS))
         status = ost_agree(ctx, ost_scene_set_modulus(scene));
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))

@@ -72,7 +72,7 @@ static OstStatus axes_of_tet(const OstScene *scene, const OstAxesSpec *spec, Ost
     return ost_axes_from_directions(scene->ctx, spec->along, first, second, axes);
 }
 
-OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
+OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -80,7 +80,7 @@ OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *m
         const OstAxesSpec *spec = &materials->axes[region];
         if (spec->kind != OST_AXES_FIELD || materials->material[region].isotropic)
             continue;
-        if (axes_of_tet(scene, spec, t, axes + 9 * (size_t)t) != OST_SUCCESS)
+        if (axes_of_tet(scene, spec, t, axes->of_tet + 9 * (size_t)t) != OST_SUCCESS)
             return raise_for_tet(scene, ost_case_material_of(scene->c, mesh->regions.name[region])->axes_place,
                                  spec->field[0], t);
     }
