@@ -260,8 +260,6 @@ static void set_directions(const OstScene *scene, int region, const OstAxesSpec 
     const int two = spec->from[1] != NULL;
     int along[2];
     ost_directions_along(spec->along, two, along);
-    for (int k = 0; k < 2; k++)
-        axes->along[2 * region + k] = (signed char)along[k];
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         double first[30], second[30];
         if (mesh->tet_region[t] != region)

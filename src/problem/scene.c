@@ -61,18 +61,45 @@ static int wants_any(const OstScene *scene, const OstSceneMaterials *materials, 
     return 0;
 }
 
-/* Quadratic tets alone have directions. */
-static OstStatus make_room(const OstMesh *mesh, OstTetAxes *axes)
+/* Do a region's axes follow directions within each tet? Only in quadratic tets. */
+static int follows_directions(const OstScene *scene, const OstSceneMaterials *materials, int region)
 {
-    const size_t tets = (size_t)mesh->tet_count;
-    OST_TRY(OST_NEW(mesh->ctx, &axes->of_tet, 9 * tets));
-    if (mesh->nodes_per_tet == 4)
+    return scene->mesh->nodes_per_tet == 10 && !materials->material[region].isotropic &&
+           (materials->axes[region].kind == OST_AXES_GRADIENT ||
+            ost_scene_field_varies(scene, &materials->axes[region]));
+}
+
+static OstStatus make_room_for_directions(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
+{
+    const int regions = scene->mesh->regions.count;
+    int any = 0;
+    for (int r = 0; r < regions; r++)
+        any |= follows_directions(scene, materials, r);
+    if (!any)
         return OST_SUCCESS;
-    ost_ledger_enter(mesh->ctx, OST_EFFECT_VARYING_AXES);
-    OstStatus status = OST_NEW(mesh->ctx, &axes->directions, OST_DIRECTIONS * tets);
-    OST_THEN(OST_NEW(mesh->ctx, &axes->along, 2 * mesh->regions.count));
-    ost_ledger_leave(mesh->ctx);
-    return status;
+    OST_TRY(OST_NEW(scene->ctx, &axes->directions, OST_DIRECTIONS * (size_t)scene->mesh->tet_count));
+    OST_TRY(OST_NEW(scene->ctx, &axes->along, 2 * regions));
+    for (int r = 0; r < regions; r++) {
+        const OstAxesSpec *spec = &materials->axes[r];
+        int along[2] = {0};
+        if (follows_directions(scene, materials, r))
+            ost_directions_along(spec->along, spec->from[1] || spec->field[1], along);
+        axes->along[2 * r] = (signed char)along[0];
+        axes->along[2 * r + 1] = (signed char)along[1];
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus make_room(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
+{
+    const int gradients = ost_effect_on(&scene->plan.effects, OST_EFFECT_GRADIENT_AXES);
+    ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
+    OstStatus status = OST_NEW(scene->ctx, &axes->of_tet, 9 * (size_t)scene->mesh->tet_count);
+    ost_ledger_leave(scene->ctx);
+    ost_ledger_enter(scene->ctx, OST_EFFECT_VARYING_AXES);
+    OST_THEN(make_room_for_directions(scene, materials, axes));
+    ost_ledger_leave(scene->ctx);
+    return ost_agree(scene->ctx, status);
 }
 
 /* The axes of the mesh, with those of gradients and of fields in their place; none if there are none of these. */
@@ -83,9 +110,7 @@ static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *mater
     const int fields = wants_any(scene, materials, OST_AXES_FIELD);
     if (!gradients && !fields)
         return OST_SUCCESS;
-    ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
-    OstStatus status = ost_agree(scene->ctx, make_room(mesh, axes));
-    ost_ledger_leave(scene->ctx);
+    OstStatus status = make_room(scene, materials, axes);
     if (status == OST_SUCCESS && mesh->tet_axes && mesh->tet_count > 0)
         memcpy(axes->of_tet, mesh->tet_axes, 9 * sizeof(double) * (size_t)mesh->tet_count);
     if (gradients)

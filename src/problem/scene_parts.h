@@ -75,6 +75,7 @@ double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, cons
 /* Local. Fills `axes` (9 a tet) of the regions whose axes are fields of the mesh file; gives the tets of regions whose
  * Young's modulus is one their factors. */
 OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes);
+int ost_scene_field_varies(const OstScene *scene, const OstAxesSpec *spec); /* are its fields at the vertices? */
 OstStatus ost_scene_set_modulus(OstScene *scene);
 
 /* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */
