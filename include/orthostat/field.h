@@ -10,8 +10,15 @@ OST_API_BEGIN
 /* Elasticity and axes of every tet of a rank's piece of a mesh. */
 typedef struct OstMaterialField OstMaterialField;
 
-/* Local. Axes of a tet (the world's where the body carries none). */
+/* Local. Axes of a tet (the world's where the body carries none); of axes that vary within it, those in its middle. */
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9]);
+
+/* Local. Axes that vary within quadratic tets, of the regions whose axes were given tet by tet (OST_AXES_CELLS): rows
+ * e1 e2 e3 at the four vertices of each of `tet_count` tets, ghosts included (36 numbers a tet), in place of those of
+ * the tet; copied. Between the vertices they turn evenly; where they turn by more than 60 degrees from a tet's mean,
+ * that is taken for all of it. Raises OST_INVALID_INPUT as ost_axes_check, OST_INVALID_USAGE if there is no such
+ * region. */
+OstStatus ost_field_set_vertex_axes(OstMaterialField *field, OstLocal tet_count, const double *axes);
 
 /* Poisson's ratio above which a material counts as nearly incompressible. */
 #define OST_NEARLY_INCOMPRESSIBLE 0.45

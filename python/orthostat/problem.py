@@ -36,7 +36,8 @@ class Problem:
     """The discrete problem on a mesh: energy, forces and stiffness as functions of the displacement.
 
     mesh: a Mesh.  material: a Material, or {region: Material}.
-    axes: (3, 3) for all tets or (tet_count, 3, 3), rows e1 e2 e3; None: those of the mesh, or the world's.
+    axes: (3, 3) for all tets or (tet_count, 3, 3), rows e1 e2 e3; (tet_count, 4, 3, 3) at the vertices, between which they
+    turn in quadratic tets; None: those of the mesh, or the world's.
     constraints: a list of (nodes, displacement) or (nodes, displacement, direction). Nodes: numbers or a mask of this
     rank's own. Displacement: (3,) or (nodes, 3), nan where free; with a direction a number, or one for each node.
     force: (owned_nodes, 3).  formulation: "linear", or "consistent" or "classical" for large rotations.
@@ -153,7 +154,11 @@ def _field(mesh, material, axes):
     specs = ffi.new("OstAxesSpec[]", len(names))
     axes = mesh.axes if axes is None else axes
     given = None
-    if axes is not None:
+    at_vertices = None
+    if numpy.ndim(axes) == 4:
+        at_vertices = array(axes, (mesh.tet_count, 4, 3, 3), "axes")
+        given = numpy.ascontiguousarray(at_vertices[:, 0])
+    elif axes is not None:
         given = array(numpy.broadcast_to(axes, (mesh.tet_count, 3, 3)) if numpy.ndim(axes) == 2 else axes,
                       (mesh.tet_count, 3, 3), "axes")
     for number, name in enumerate(names):
@@ -161,7 +166,10 @@ def _field(mesh, material, axes):
         specs[number].kind = lib.OST_AXES_NONE if given is None else lib.OST_AXES_CELLS
     box = mesh.context.box("OstMaterialField")
     mesh.context.check(lib.ost_field_create_on(mesh.pointer, materials, specs, pointer_to(given), box))
-    return _Field(box[0], mesh)
+    field = _Field(box[0], mesh)
+    if at_vertices is not None:
+        mesh.context.check(lib.ost_field_set_vertex_axes(field.pointer, mesh.tet_count, pointer_to(at_vertices)))
+    return field
 
 
 def _constraints(mesh, constraints):

@@ -90,7 +90,7 @@ static inline void gather(const OstOperator *operator, OstLocal first, OstLocal 
         ost_batch_gather_vectors(batch, cells->nodes, cells->turned_by, cells->base);
     if (field->region_formula && cells->points > 0 && !(batch->elasticity.about_line && field->region_count == 1))
         find_places(cells, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, places);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, cells->points, cells->rule->point, places);
     const int is_about_line = batch->elasticity.about_line;
     batch->elasticity.stretch_at =
         is_about_line && (cells->nodes == 10 || batch->elasticity.points > 1) ? cells->stretch : NULL;

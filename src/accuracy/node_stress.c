@@ -214,7 +214,7 @@ void ost_operator_add_stress(const OstOperator *operator, const double * u, cons
         ost_batch_gather(&visit.batch, visit.element, mesh, problem->field, count, tets);
         take_own_order(mesh, &visit.batch);
         ost_elasticity_gather(&visit.at_nodes, problem->field, visit.batch.tet, visit.element->points > 0 ? nodes : 0,
-                              visit.batch.x);
+                              ost_tet_nodes.point, visit.batch.x);
         find_added(&visit, found);
         for (int slot = 0; slot < count; slot++) {
             const size_t tet = (size_t)(first + slot);

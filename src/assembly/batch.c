@@ -37,7 +37,8 @@ void ost_batch_gather(OstBatch *batch, const OstElement *element, const OstMesh 
     ost_batch_gather_vectors(batch, nodes, mesh->coordinates, batch->x);
     if (field->region_formula && element->points > 0)
         element->places(batch->x, places);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points, places);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, element->points,
+                          element->at ? element->at->point : NULL, places);
     if (nodes > 4)
         refer_to_first_node(batch->x, nodes);
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
+#include "element/shape_functions.h"
 
 #include <string.h>
 
@@ -99,4 +100,18 @@ void ost_tet_component_gradients(const OstMesh *mesh, OstLocal tet, const double
     ost_gather3(element->nodes, nodes, mesh->coordinates, x);
     ost_gather3(element->nodes, nodes, u, values);
     element->gradient(x, values, gradients);
+}
+
+void ost_tet_node_gradients(const OstMesh *mesh, OstLocal tet, const double *u, int component, double gradients[30])
+{
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    double x[30], of_node[30];
+    ost_gather3(10, nodes, mesh->coordinates, x);
+    memset(gradients, 0, 30 * sizeof *gradients);
+    for (int n = 0; n < 10; n++) {
+        ost_shape_gradients(10, ost_tet_nodes.point[n].at, x, of_node);
+        for (int a = 0; a < 10; a++)
+            for (int i = 0; i < 3; i++)
+                gradients[3 * n + i] += u[3 * (size_t)nodes[a] + (size_t)component] * of_node[3 * a + i];
+    }
 }

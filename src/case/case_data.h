@@ -158,11 +158,12 @@ typedef struct OstCaseMaterial {
     int axes_asked_for; /* isotropic, but something is asked for along its axes, so that these are kept */
 } OstCaseMaterial;
 
-/* A field of the mesh file that a material asks for. */
+/* A field of the mesh file that a material asks for: numbers, a direction that has no sense, or e1, e2 and e3. */
+typedef enum { OST_CASE_FIELD_OF_NUMBERS, OST_CASE_FIELD_OF_DIRECTIONS, OST_CASE_FIELD_OF_AXES } OstCaseFieldUse;
 typedef struct OstCaseField {
     const char *name; /* a material's */
     OstPlace place;
-    int directions; /* are its numbers a fibre's direction? */
+    OstCaseFieldUse use;
 } OstCaseField;
 
 /* A quantity of interest; `orthostat cost` finds what its error costs. */

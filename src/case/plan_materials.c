@@ -83,6 +83,7 @@ static void add_axes(const OstCaseMaterial *stated, OstEffectFacts *facts)
     if (facts->varying++ == 0)
         snprintf(facts->varying_reason, sizeof facts->varying_reason, "%s in region '%.60s'",
                  what_varying_axes_follow(stated->axes.kind), stated->region);
+    facts->directions += stated->axes.kind == OST_AXES_GRADIENT || stated->axes.kind == OST_AXES_FIELD;
     if (stated->axes.kind == OST_AXES_GRADIENT)
         facts->gradient_region = stated->region;
 }

@@ -162,6 +162,18 @@ static double adjoint_bytes(const OstCase *c, const OstPlan *plan)
     return 48.0 * counts->nodes + fmin(plan->adjoints, most) * (16.0 * functions + 48.0 * counts->nodes);
 }
 
+/* Columns of fields of the mesh file, if they are at vertices where they may be. */
+static double field_bytes(const OstCase *c, const OstPlan *plan)
+{
+    static const double columns[] = {
+        [OST_CASE_FIELD_OF_NUMBERS] = 1.0, [OST_CASE_FIELD_OF_DIRECTIONS] = 3.0, [OST_CASE_FIELD_OF_AXES] = 36.0};
+    double bytes = 0.0;
+    for (int f = 0; f < c->field_count; f++)
+        bytes += 8.0 * columns[c->fields[f].use] *
+                 (plan->quadratic && c->fields[f].use == OST_CASE_FIELD_OF_DIRECTIONS ? 4.0 : 1.0);
+    return bytes * plan->counts.tets;
+}
+
 void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
 {
     const OstMeshCounts *counts = &plan->counts;
@@ -171,9 +183,9 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     const int q = plan->quadratic;
     plan->least_ranks = least_ranks(counts->blocks, (q ? 10.0 : 4.0) * counts->tets);
     plan->bytes_mesh =
-        node_bytes * counts->nodes +
-        halo_factor(counts->nodes, ranks) * (mesh_bytes[q].vertex * counts->vertices +
-                                             mesh_bytes[q].tet * counts->tets + mesh_bytes[q].face * counts->surface);
+        node_bytes * counts->nodes + halo_factor(counts->nodes, ranks) *
+                                         (mesh_bytes[q].vertex * counts->vertices + mesh_bytes[q].tet * counts->tets +
+                                          mesh_bytes[q].face * counts->surface + field_bytes(c, plan));
     const double left = 0.5 * (counts->blocks - counts->nodes); /* of the diagonal */
     plan->bytes_matrix = (counts->blocks - left) * block_bytes + left * left_block_bytes + counts->nodes * row_bytes;
     if (plan->solver.first != OST_METHOD_DIRECT && plan->solver.first != OST_METHOD_PLAIN)
@@ -183,8 +195,11 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     plan->bytes_effects = adjoints;
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
-    plan->bytes_in_all = plan->bytes_mesh + plan->bytes_matrix + plan->bytes_effects - estimate - recovery +
-                         fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery);
+    const double potentials = ost_effect_state(&plan->effects, OST_EFFECT_GRADIENT_AXES)->bytes; /* given back before */
+    const double kept = plan->bytes_mesh + plan->bytes_effects - estimate - recovery - potentials;
+    plan->bytes_in_all =
+        fmax(kept + potentials,
+             kept + plan->bytes_matrix + fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery));
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }
 

@@ -219,7 +219,7 @@ static OstStatus read_gradient(const OstYaml *yaml, const OstYamlNode *node, Ost
 static OstStatus read_field_name(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c,
                                  OstAxesSpec *axes)
 {
-    return ost_read_field(yaml, node, 1, c, &axes->field[number]);
+    return ost_read_field(yaml, node, OST_CASE_FIELD_OF_DIRECTIONS, c, &axes->field[number]);
 }
 
 /* The name of a field of nine numbers, or {e1: NAME, e2: NAME} of fields of three. */
@@ -228,7 +228,7 @@ static OstStatus read_field_axes(const OstYaml *yaml, const OstYamlNode *node, O
     if (ost_yaml_is(yaml, node, OST_YAML_MAPPING))
         return read_stated(yaml, node, c, axes, read_field_name);
     axes->along[0] = -1;
-    return ost_read_field(yaml, node, 0, c, &axes->field[0]);
+    return ost_read_field(yaml, node, OST_CASE_FIELD_OF_AXES, c, &axes->field[0]);
 }
 
 /* --- one direction --- */

@@ -63,7 +63,7 @@ static OstStatus read_youngs_field(const OstYaml *yaml, const OstYamlNode *node,
     modulus->factor = modulus->power = 1.0;
     modulus->place = ost_yaml_at(node);
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
-    OST_TRY(ost_read_field(yaml, keys[FIELD].value, 0, c, &modulus->field));
+    OST_TRY(ost_read_field(yaml, keys[FIELD].value, OST_CASE_FIELD_OF_NUMBERS, c, &modulus->field));
     if (keys[RATIOS].value)
         return read_youngs(yaml, keys[RATIOS].value, stated);
     stated->youngs_form = YOUNGS_NUMBER;
@@ -251,11 +251,11 @@ int ost_case_find_field(const OstCase *c, const char *name)
     return -1;
 }
 
-OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name)
+OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, OstCaseFieldUse use, OstCase *c, char **name)
 {
     OST_TRY(ost_read_string(yaml, node, name));
     const int known = ost_case_find_field(c, *name);
-    if (known >= 0 && c->fields[known].directions != directions)
+    if (known >= 0 && c->fields[known].use != use)
         return ost_yaml_raise(yaml, node,
                               "the field '%.80s' stands for directions here or in line %d, and for numbers in "
                               "the other place",
@@ -263,14 +263,14 @@ OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int direc
     if (known < 0 && c->field_count == OST_MOST_TET_FIELDS)
         return ost_yaml_raise(yaml, node, "a case reads %d fields of the mesh file at most", OST_MOST_TET_FIELDS);
     if (known < 0)
-        c->fields[c->field_count++] = (OstCaseField){*name, ost_yaml_at(node), directions};
+        c->fields[c->field_count++] = (OstCaseField){*name, ost_yaml_at(node), use};
     return OST_SUCCESS;
 }
 
 static OstStatus take_eigen_field(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     material->eigen_place = ost_yaml_at(node);
-    return ost_read_field(yaml, node, 0, c, &material->eigen_field);
+    return ost_read_field(yaml, node, OST_CASE_FIELD_OF_NUMBERS, c, &material->eigen_field);
 }
 
 /* A number, or {field: NAME}. */

@@ -45,8 +45,8 @@ OstStatus ost_read_axes(const OstYaml *yaml, const OstYamlNode *node, const char
                         OstAxesSpec *axes);
 OstStatus ost_read_fibre(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstAxesSpec *axes);
 
-/* The name of a field of the mesh file, which the case then reads; `directions`: does it hold them? */
-OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int directions, OstCase *c, char **name);
+/* The name of a field of the mesh file, which the case then reads. */
+OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, OstCaseFieldUse use, OstCase *c, char **name);
 /* A time table, added to those of the case unless it has the same already; `number` is 1 + its place there. */
 OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, int *number);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);

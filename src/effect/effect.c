@@ -35,11 +35,11 @@ static void orthotropy(const OstEffectFacts *f, OstEffectState *state)
         off(state, "every material is isotropic");
 }
 
-/* Nine numbers a tet. */
+/* Four numbers a tet; sixty in single precision where axes follow directions within quadratic tets. */
 static void varying_axes(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->varying > 0)
-        on(state, 32.0 * f->tets, "%s", f->varying_reason);
+        on(state, (f->quadratic && f->directions > 0 ? 272.0 : 32.0) * f->tets, "%s", f->varying_reason);
     else
         off(state, f->orthotropic > 0 ? "the axes are uniform in each region" : "an isotropic body needs no axes");
 }
@@ -50,12 +50,14 @@ static double matrix_bytes(const OstEffectFacts *f)
     return 76.0 * (f->vertices + 2.0 * f->edges);
 }
 
-/* The axes; and mesh, matrix and multigrid hierarchy of the potentials, which are solved for like displacements. */
+/* The axes; and matrix and multigrid hierarchy of the potentials, which are solved for like displacements, on the nodes
+ * of quadratic tets themselves: measured. */
 static void gradient_axes(const OstEffectFacts *f, OstEffectState *state)
 {
+    const double potentials = f->quadratic ? 4000.0 * f->nodes : 600.0 * f->vertices + 2.5 * matrix_bytes(f);
     if (f->gradient_region)
-        on(state, 112.0 * f->tets + 600.0 * f->vertices + 2.5 * matrix_bytes(f),
-           "axes of region '%.60s' follow potentials between boundaries", f->gradient_region);
+        on(state, 112.0 * f->tets + potentials, "axes of region '%.60s' follow potentials between boundaries",
+           f->gradient_region);
     else
         off(state, "no axes are given by gradients");
 }

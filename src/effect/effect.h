@@ -60,6 +60,7 @@ typedef struct OstEffectFacts {
     char varying_reason[160];
     const char *modulus_region;  /* a region whose Young's modulus is a field of the mesh file, or NULL */
     const char *gradient_region; /* a region whose axes follow potentials, or NULL */
+    int directions;              /* materials whose axes follow directions within quadratic tets, or may */
     int nearly_incompressible;   /* materials with one stiff mode (ost_material_stiff_mode) */
     int mixed;                   /* 0: the case says no mixed form; 1: where it is useful */
     int quadratic;               /* are the tets quadratic? */

@@ -3,6 +3,7 @@
 
 #include "core/small.h"
 #include "material/axes_formula.h"
+#include "material/directions.h"
 #include "material/turn.h"
 
 #include <float.h>
@@ -164,6 +165,74 @@ static int cylindrical_axes(const OstAxesSpec *spec, const OstSimd place[3], Ost
     return 1;
 }
 
+static void gather_directions(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH],
+                              OstSimd directions[OST_DIRECTIONS])
+{
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        const float *from = field->tet_directions + OST_DIRECTIONS * (size_t)tets[slot];
+        for (int n = 0; n < OST_DIRECTIONS; n++)
+            directions[n][slot] = (double)from[n];
+    }
+}
+
+static void normalise(OstSimd v[3])
+{
+    OstSimd size;
+    dot(v, v, &size);
+    ost_simd_square_root(&size);
+    for (int i = 0; i < 3; i++)
+        v[i] /= size;
+}
+
+/* As ost_directions_at; NAN where directions give no axes. */
+static void frame_of_directions(const signed char along[2], const OstSimd directions[OST_DIRECTIONS],
+                                const double at[4], OstSimd axes[9])
+{
+    OstSimd *first = axes + 3 * along[0], *second = axes + 3 * along[1], *third = axes + 3 * (3 - along[0] - along[1]);
+    const double sign = (along[1] - along[0] + 3) % 3 == 1 ? 1.0 : -1.0;
+    double share[OST_DIRECTION_NODES];
+    ost_direction_shares(at, share);
+    for (int i = 0; i < 3; i++) {
+        const OstSimd *a = directions + OST_DIRECTION_NODES * i, *b = a + OST_DIRECTIONS / 2;
+        first[i] = share[0] * a[0];
+        second[i] = share[0] * b[0];
+        for (int n = 1; n < OST_DIRECTION_NODES; n++) {
+            first[i] += share[n] * a[n];
+            second[i] += share[n] * b[n];
+        }
+    }
+    normalise(first);
+    for (int pass = 0; pass < 2; pass++) { /* the second takes off what rounding left */
+        OstSimd overlap;
+        dot(first, second, &overlap);
+        for (int i = 0; i < 3; i++)
+            second[i] -= overlap * first[i];
+        normalise(second);
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        third[i] = sign * (first[j] * second[k] - first[k] * second[j]);
+    }
+}
+
+/* Axes at a point of each tet; the tet's own where its directions give none. */
+static void follow_directions(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH],
+                              const signed char along[2], const OstSimd directions[OST_DIRECTIONS], const double at[4],
+                              OstSimd axes[9])
+{
+    frame_of_directions(along, directions, at, axes);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        double own[9], sum = 0.0;
+        for (int i = 0; i < 9; i++)
+            sum += axes[i][slot];
+        if (isfinite(sum))
+            continue;
+        ost_field_axes(field, tets[slot], own);
+        for (int i = 0; i < 9; i++)
+            axes[i][slot] = own[i];
+    }
+}
+
 /* Evaluates the axes' formula at a point of each tet; all are of one region. */
 static void evaluate_axes(const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH], const OstSimd place[3],
                           OstSimd axes[9])
@@ -174,7 +243,7 @@ static void evaluate_axes(const OstMaterialField *field, const OstLocal tets[OST
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         const double point[3] = {place[0][slot], place[1][slot], place[2][slot]};
         double at_point[9];
-        ost_field_axes_at(field, tets[slot], point, at_point);
+        ost_field_axes_at(field, tets[slot], NULL, point, at_point);
         for (int i = 0; i < 9; i++)
             axes[i][slot] = at_point[i];
     }
@@ -261,12 +330,18 @@ static void gather_uniform(OstElasticity *elasticity, const OstMaterialField *fi
 }
 
 static void gather_varying(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
-                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places)
+                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstQuadraturePoint *at,
+                           const OstSimd *places)
 {
-    OstSimd axes[9];
-    elasticity->points = points > 0 && ost_field_has_formula(field, region) ? points : 1;
+    OstSimd axes[9], directions[OST_DIRECTIONS];
+    const signed char *along = ost_field_directions_along(field, region);
+    elasticity->points = points > 0 && ost_field_varies_within(field, region) ? points : 1;
+    if (elasticity->points > 1 && along)
+        gather_directions(field, tets, directions);
     for (int point = 0; point < elasticity->points; point++) {
-        if (elasticity->points > 1)
+        if (elasticity->points > 1 && along)
+            follow_directions(field, tets, along, directions, at[point].at, axes);
+        else if (elasticity->points > 1)
             evaluate_axes(field, tets, places + 3 * point, axes);
         else
             gather_axes(field, tets, axes);
@@ -279,7 +354,8 @@ static void gather_varying(OstElasticity *elasticity, const OstMaterialField *fi
 
 /* All tets of the batch are of one region. */
 static void gather_region(OstElasticity *elasticity, const OstMaterialField *field, int32_t region,
-                          const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places)
+                          const OstLocal tets[OST_SIMD_WIDTH], int points, const OstQuadraturePoint *at,
+                          const OstSimd *places)
 {
     if (elasticity->region == region)
         return;
@@ -296,7 +372,7 @@ static void gather_region(OstElasticity *elasticity, const OstMaterialField *fie
     if (elasticity->about_line)
         elasticity->points = points > 0 ? points : 1;
     else if (field->region_varies[region])
-        gather_varying(elasticity, field, region, tets, points, places);
+        gather_varying(elasticity, field, region, tets, points, at, places);
     else
         gather_uniform(elasticity, field, region);
     elasticity->varying = elasticity->points > 1 ? (1U << OST_SIMD_WIDTH) - 1U : 0U;
@@ -316,7 +392,7 @@ static void copy_lane(const OstElasticity *from, int slot, OstElasticity *to)
 
 /* The tets are of several regions: gathers each by itself and copies it to its slot. */
 static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH],
-                         int points, const OstSimd *places)
+                         int points, const OstQuadraturePoint *at, const OstSimd *places)
 {
     elasticity->region = -1;
     elasticity->points = points > 0 ? points : 1;
@@ -331,7 +407,7 @@ static void gather_mixed(OstElasticity *elasticity, const OstMaterialField *fiel
             same[other] = tets[slot];
         OstElasticity one;
         ost_elasticity_clear(&one);
-        gather_region(&one, field, field->tet_region[tets[slot]], same, points, places);
+        gather_region(&one, field, field->tet_region[tets[slot]], same, points, at, places);
         elasticity->by_mean |= one.by_mean;
         elasticity->mixed |= one.mixed;
         elasticity->varying |= one.varying & 1U << slot;
@@ -369,21 +445,22 @@ static void scale(OstElasticity *elasticity, const OstMaterialField *field, cons
 }
 
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,
-                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places)
+                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstQuadraturePoint *at,
+                           const OstSimd *places)
 {
     const int32_t region = field->tet_region[tets[0]];
     int same = 1;
     for (int slot = 1; slot < OST_SIMD_WIDTH; slot++)
         same &= field->tet_region[tets[slot]] == region;
     if (same)
-        gather_region(elasticity, field, region, tets, points, places);
+        gather_region(elasticity, field, region, tets, points, at, places);
     else
-        gather_mixed(elasticity, field, tets, points, places);
+        gather_mixed(elasticity, field, tets, points, at, places);
     if (elasticity->mixed)
         gather_pressure(elasticity, field, tets);
     if (field->tet_scale)
         scale(elasticity, field, tets);
     elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);
     if (elasticity->eigenstrained)
-        ost_eigenstrain_gather(elasticity, field, tets, places);
+        ost_eigenstrain_gather(elasticity, field, tets, at, places);
 }

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ELEMENT_ELASTICITY_H
 #define ORTHOSTAT_ELEMENT_ELASTICITY_H
 
+#include "element/quadrature.h"
 #include "element/simd.h"
 #include "material/field_data.h"
 
@@ -72,16 +73,18 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->eigenstrained = 0;
 }
 
-/* Local. Reads C of a batch of tets. `places` are `points` points in each of them (3 numbers a point): C is evaluated
- * there if the axes of any of the tets come from a formula. Linear tets pass 0 points: their C is that at the centroid,
- * and never split, since their strain is uniform. If A suffices and the axes are cylindrical, only the cylinder's axis
- * is stored, and ost_stretch_about_line computes A, which is cheaper than reading each tet's axes from memory. */
+/* Local. Reads C of a batch of tets. `at` are `points` points in each of them, `places` where these lie (3 numbers a
+ * point, read where axes come from a formula): C is evaluated there if the axes of any of the tets vary within it.
+ * Linear tets pass 0 points: their C is that at the centroid, and never split, since their strain is uniform. If A
+ * suffices and the axes are cylindrical, only the cylinder's axis is stored, and ost_stretch_about_line computes A,
+ * which is cheaper than reading each tet's axes from memory. */
 void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *field,
-                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstSimd *places);
+                           const OstLocal tets[OST_SIMD_WIDTH], int points, const OstQuadraturePoint *at,
+                           const OstSimd *places);
 
 /* Local. Reads e0, at the points of C; a part of ost_elasticity_gather (eigenstrain.c). */
 void ost_eigenstrain_gather(OstElasticity *elasticity, const OstMaterialField *field,
-                            const OstLocal tets[OST_SIMD_WIDTH], const OstSimd *places);
+                            const OstLocal tets[OST_SIMD_WIDTH], const OstQuadraturePoint *at, const OstSimd *places);
 
 /* A at places, of which these are the fourfold, for cylindrical axes. */
 static inline void ost_stretch_at(const OstElasticity *elasticity, const OstSimd fourfold[3], OstSimd tensor[6])

@@ -33,8 +33,10 @@ typedef struct OstElement {
     int nodes_per_face;
     int linear; /* are the forces linear in the displacements? */
 
-    /* Quadrature points at which C is needed where it varies within a tet (3 numbers a point); 0 for linear tets. */
+    /* Quadrature points at which C is needed where it varies within a tet, and their places (3 numbers a point); 0 for
+     * linear tets. */
     int points;
+    const OstQuadrature *at;
     void (*places)(const OstSimd *x, OstSimd *places);
 
     /* The rule that integrates these tets' stiffness, and one of its points. C at its point q is

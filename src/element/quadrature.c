@@ -35,6 +35,11 @@ static const OstQuadraturePoint tet_degree5[] = {
     SIX(0.04550370412564964949, 0.45449629587435035051, 0.04254602077708146644),
 };
 
+static const OstQuadraturePoint tet_nodes[] = {
+    {{1, 0, 0, 0}, 0},     {{0, 1, 0, 0}, 0},     {{0, 0, 1, 0}, 0},     {{0, 0, 0, 1}, 0},     {{0.5, 0.5, 0, 0}, 0},
+    {{0, 0.5, 0.5, 0}, 0}, {{0.5, 0, 0.5, 0}, 0}, {{0.5, 0, 0, 0.5}, 0}, {{0, 0.5, 0, 0.5}, 0}, {{0, 0, 0.5, 0.5}, 0},
+};
+
 /* a = (6 ± sqrt 15) / 21, w = (155 ± sqrt 15) / 1200 */
 static const OstQuadraturePoint triangle_degree5[] = {
     {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0}, 9.0 / 40.0},
@@ -50,4 +55,5 @@ const OstQuadrature ost_tet_degree1 = RULE(tet_degree1);
 const OstQuadrature ost_tet_degree2 = RULE(tet_degree2);
 const OstQuadrature ost_tet_degree3 = RULE(tet_degree3);
 const OstQuadrature ost_tet_degree5 = RULE(tet_degree5);
+const OstQuadrature ost_tet_nodes = RULE(tet_nodes);
 const OstQuadrature ost_triangle_degree5 = RULE(triangle_degree5);

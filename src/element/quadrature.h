@@ -25,6 +25,9 @@ extern const OstQuadrature ost_tet_degree3;
 /* Degree 5, 14 points (N. J. Walkington, Quadrature on simplices of arbitrary dimension, 2000). */
 extern const OstQuadrature ost_tet_degree5;
 
+/* The vertices of a tet and the middles of its edges, in the mesh's order; they have no weights. */
+extern const OstQuadrature ost_tet_nodes;
+
 /* Rule for triangles. Degree 5, 7 points (J. Radon, Zur mechanischen Kubatur, 1948), inside, weights positive. */
 extern const OstQuadrature ost_triangle_degree5;
 

@@ -532,6 +532,7 @@ const OstElement ost_tet10 = {
     .nodes_per_face = 6,
     .linear = 1,
     .points = POINTS,
+    .at = &ost_tet_degree3,
     .places = tet10_places,
     .rule = rule_for,
     .uniform = find_uniform,

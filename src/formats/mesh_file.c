@@ -179,19 +179,19 @@ OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **c
 
 /* Rank 0 has all tets. */
 static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, const char *path, const char *name,
-                                  OstFieldUse use, OstMeshChunk *chunk)
+                                  unsigned use, OstMeshChunk *chunk)
 {
     OstFileField field = {0};
     OstStatus status = format->read_field(ctx, path, name, chunk, &field);
     if (status == OST_SUCCESS && !field.found)
         status = ost_tet_field_raise(ctx, path, name, &field);
-    OST_THEN(ost_tet_field_mean(chunk, use, &field));
-    OST_THEN(ost_tet_field_add(chunk, path, name, field.width, field.values));
+    OST_THEN(ost_tet_field_of_nodes(chunk, use, &field));
+    OST_THEN(ost_tet_field_add(chunk, path, name, &field));
     OST_FREE(field.values);
     return status;
 }
 
-static OstStatus read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use, OstMeshChunk *chunk)
+static OstStatus read_field(OstContext *ctx, const char *path, const char *name, unsigned use, OstMeshChunk *chunk)
 {
     const OstMeshFormat *format = find_format(path);
     if (!format)
@@ -210,7 +210,7 @@ static OstStatus read_field(OstContext *ctx, const char *path, const char *name,
     return ost_agree(ctx, ost_rank(ctx) == 0 || chunk->tet_field ? OST_SUCCESS : OST_NEW(ctx, &chunk->tet_field, 0));
 }
 
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, unsigned use,
                                    OstMeshChunk *chunk)
 {
     ost_ledger_enter(ctx, OST_LEDGER_MESH);

@@ -6,6 +6,7 @@
 #include "core/small.h"
 #include "material/axes_formula.h"
 #include "material/definite.h"
+#include "material/directions.h"
 #include "material/turn.h"
 
 #include <stdio.h>
@@ -73,9 +74,29 @@ int ost_field_has_formula(const OstMaterialField *field, int32_t region)
     return field->region_formula && field->region_formula[region];
 }
 
-void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double point[3], double axes[9])
+int ost_field_varies_within(const OstMaterialField *field, int32_t region)
+{
+    return ost_field_has_formula(field, region) || ost_field_directions_along(field, region);
+}
+
+void ost_field_take_directions(OstMaterialField *field, signed char **along, float **directions)
+{
+    OST_FREE(field->region_along, field->tet_directions);
+    field->region_along = *along;
+    field->tet_directions = *directions;
+    *along = NULL;
+    *directions = NULL;
+}
+
+void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double at[4], const double point[3],
+                       double axes[9])
 {
     const int32_t region = field->tet_region[tet];
+    const signed char *along = ost_field_directions_along(field, region);
+    if (along && at &&
+        ost_directions_at(field->ctx, field->tet_directions + OST_DIRECTIONS * (size_t)tet, along, at, axes) ==
+            OST_SUCCESS)
+        return;
     if (ost_field_has_formula(field, region) &&
         ost_axes_formula_at(field->region_formula[region], point, axes) == OST_SUCCESS)
         return;
@@ -440,5 +461,6 @@ void ost_field_destroy(OstMaterialField **field)
     forget_split(&(*field)->mixed);
     OST_FREE((*field)->tet_scale, (*field)->region_eigenstrain, (*field)->tet_eigenstrain, (*field)->material,
              (*field)->region_stiffness, (*field)->region_axes, (*field)->region_varies, (*field)->tet_turn);
+    OST_FREE((*field)->region_along, (*field)->tet_directions);
     OST_FREE(*field);
 }

@@ -29,6 +29,11 @@ struct OstMaterialField {
     /* region_count, NULL for regions whose axes have no formula; NULL if no region's axes have one. */
     struct OstAxesFormula **region_formula;
 
+    /* Axes that follow directions within each tet (material/directions.h), of regions of two different ones:
+     * region_count × 2, the axes that these are; tet_count × 24. NULL: no region's do. */
+    signed char *region_along;
+    float *tet_directions;
+
     /* How C of regions with one stiff mode is split: not, as the mean dilatation or the mixed form have it. A field may
      * have both, and a copy of it use the other. */
     OstSplitForm form;
@@ -74,9 +79,24 @@ void ost_field_metric(const OstMaterialField *field, OstLocal tet, double metric
 /* Local. Do a region's axes come from a formula, which can be evaluated at any point? */
 int ost_field_has_formula(const OstMaterialField *field, int32_t region);
 
-/* Local. Axes at a point of a tet by the formula; the tet's own axes if there is no formula, or where it is not defined
- * (on a cylinder's axis). */
-void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double point[3], double axes[9]);
+/* Local. Which axes directions are that a region's axes follow within each tet; NULL if they follow none. */
+static inline const signed char *ost_field_directions_along(const OstMaterialField *field, int32_t region)
+{
+    const signed char *along = field->region_along ? field->region_along + 2 * (size_t)region : NULL;
+    return along && along[0] != along[1] ? along : NULL;
+}
+
+/* Local. Do a region's axes vary within a tet? */
+int ost_field_varies_within(const OstMaterialField *field, int32_t region);
+
+/* Local. Axes at a point of a tet, at barycentric coordinates `at`, by directions, or by the formula; the tet's own
+ * axes if there is neither, or where they are not defined (on a cylinder's axis). */
+void ost_field_axes_at(const OstMaterialField *field, OstLocal tet, const double at[4], const double point[3],
+                       double axes[9]);
+
+/* Local. Has the axes of some regions follow directions: region_count × 2 axes, twice the same of those that do not,
+ * and tet_count × OST_DIRECTIONS numbers. Both from the context's memory, and the field's from now on. */
+void ost_field_take_directions(OstMaterialField *field, signed char **along, float **directions);
 
 /* Local. Does any material have strengths? */
 int ost_field_has_strengths(const OstMaterialField *field);

@@ -24,6 +24,22 @@ void ost_mesh_destroy(OstMesh **mesh)
     OST_FREE(*mesh);
 }
 
+void ost_tet_fields_inherit(const OstTetFields *fields, const double *parent, const double place[4][4], double *child)
+{
+    for (int f = 0; f < fields->count; f++) {
+        const int width = (fields->first[f + 1] - fields->first[f]) / (fields->at_vertices[f] ? 4 : 1);
+        const double *from = parent + fields->first[f];
+        double *to = child + fields->first[f];
+        for (int k = 0; k < width && !fields->at_vertices[f]; k++)
+            to[k] = from[k];
+        for (int k = 0; k < 4 * width && fields->at_vertices[f]; k++) {
+            const double *share = place[k / width];
+            const double *at = from + k % width;
+            to[k] = share[0] * at[0] + share[1] * at[width] + share[2] * at[2 * width] + share[3] * at[3 * width];
+        }
+    }
+}
+
 int ost_mesh_owns(const OstMesh *mesh, int count, const OstGlobal *nodes)
 {
     OstGlobal lowest = INT64_MAX;

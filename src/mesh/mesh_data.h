@@ -26,11 +26,12 @@ typedef struct OstLabelRange {
 #define OST_LARGEST_LABEL INT64_C(999999999999999999)
 
 /* Fields of a mesh file that somebody asked for: their columns in a table of the tets, field i from first[i] to
- * first[i + 1]. */
+ * first[i + 1]. Those of a field at the vertices are four times its numbers, vertex by vertex. */
 enum { OST_MOST_TET_FIELDS = 8 };
 typedef struct OstTetFields {
     int count;
     int first[OST_MOST_TET_FIELDS + 1];
+    char at_vertices[OST_MOST_TET_FIELDS];
 } OstTetFields;
 
 /* Columns of all of them. */
@@ -38,6 +39,10 @@ static inline int ost_tet_fields_width(const OstTetFields *fields)
 {
     return fields->first[fields->count];
 }
+
+/* Local. The columns of a tet from those of its parent, in which its vertices have the barycentric coordinates `place`.
+ */
+void ost_tet_fields_inherit(const OstTetFields *fields, const double *parent, const double place[4][4], double *child);
 
 /* This rank's share of a mesh before it is partitioned. Numbers are global, from 0; the ranks' ranges are contiguous. A
  * reader of a serial format gives everything to rank 0. Every rank has the same list of boundaries, in the same order,
@@ -99,7 +104,7 @@ struct OstMesh {
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */
     double *tet_axes;       /* NULL, or tet_count × 9 */
-    double *tet_field;      /* NULL, or tet_count × the columns: as in the chunk; children have that of their parent */
+    double *tet_field; /* NULL, or tet_count × the columns: as in the chunk; children inherit that of their parent */
     OstTetFields fields;
     OstNames regions;
     int boundary_count;
@@ -202,5 +207,8 @@ extern const int ost_tet_edge[6][2];
 
 /* The mid-edge node (4-9) between two different vertices. */
 int ost_tet_mid_node(int a, int b);
+
+/* Barycentric coordinates of a tet's node 0-9. */
+void ost_tet_node_place(int node, double place[4]);
 
 #endif

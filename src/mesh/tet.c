@@ -14,6 +14,16 @@ int ost_tet_mid_node(int a, int b)
     return 4 + e;
 }
 
+void ost_tet_node_place(int node, double place[4])
+{
+    for (int v = 0; v < 4; v++)
+        place[v] = node == v ? 1.0 : 0.0;
+    if (node >= 4) {
+        place[ost_tet_edge[node - 4][0]] = 0.5;
+        place[ost_tet_edge[node - 4][1]] = 0.5;
+    }
+}
+
 static void difference(const double *from, const double *to, double d[3])
 {
     for (int i = 0; i < 3; i++)

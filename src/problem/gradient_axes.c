@@ -11,14 +11,15 @@
 #include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "material/directions.h"
 #include "problem/row_geometry.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Axes are right to 1e-4 then, far less than they turn from tet to tet. */
-static const double potential_residual = 1e-5;
+/* By order. Axes are right to 1e-4 then, far less than they turn from one linear tet to the next, and to 1e-6. */
+static const double potential_residual[2] = {1e-5, 1e-7};
 
 /* The two potentials are components 0 and 1 of a displacement. Component 2 repeats the first: a third right-hand side
  * costs less than a matrix with 2×2 blocks. */
@@ -82,7 +83,7 @@ static OstStatus solve_potentials(const OstScene *scene, OstSystem *system, doub
     OstSolver *solver = NULL;
     OstSolveReport report;
     OstSolverOptions options = scene->c->solver;
-    options.relative_residual = potential_residual;
+    options.relative_residual = potential_residual[scene->mesh->nodes_per_tet == 10];
     OstStatus status = OST_NEW(ctx, &rhs, unknowns);
     OST_THEN(OST_NEW(ctx, &v, unknowns));
     OST_THEN(ost_system_fill_laplacian(system, rhs));
@@ -219,8 +220,8 @@ static OstStatus find_turns(const OstScene *scene, Slope *slope, double *square)
     return OST_SUCCESS;
 }
 
-/* Axes are uniform in each tet, and no estimate sees what that makes of the answer: where they turned by an angle from
- * one tet to the next, a spindle 100 times stiffer along had forces off by 0.07 angle² times that ratio. */
+/* Axes are uniform in each linear tet, and no estimate sees what that makes of the answer: where they turned by an
+ * angle from one tet to the next, a spindle 100 times stiffer along had forces off by 0.07 angle² times that ratio. */
 static void warn_of_turns(const OstScene *scene, int region, double square)
 {
     static const double too_much = 0.3;
@@ -250,8 +251,29 @@ static OstStatus raise_for_tet(const OstScene *scene, int region, OstLocal tet)
                   name, (long long)ost_mesh_tet_number(scene->mesh, tet), reason));
 }
 
+/* Directions within the tets are the gradients there, which are right in the mean to the third order. (Linear between
+ * the vertices of curved tets, they turned to one side throughout: displacements converged with the second order.) */
+static void set_directions(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,
+                           OstTetAxes *axes)
+{
+    const OstMesh *mesh = scene->mesh;
+    const int two = spec->from[1] != NULL;
+    int along[2];
+    ost_directions_along(spec->along, two, along);
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        double first[30], second[30];
+        if (mesh->tet_region[t] != region)
+            continue;
+        ost_tet_node_gradients(mesh, t, u, 0, first);
+        if (two)
+            ost_tet_node_gradients(mesh, t, u, 1, second);
+        ost_directions_set(axes->of_tet + 9 * (size_t)t, along, first, two ? second : NULL,
+                           axes->directions + OST_DIRECTIONS * (size_t)t);
+    }
+}
+
 static OstStatus axes_from_potentials(const OstScene *scene, int region, const OstAxesSpec *spec, const double *u,
-                                      double *axes)
+                                      OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     const int two = spec->from[1] != NULL;
@@ -263,14 +285,19 @@ static OstStatus axes_from_potentials(const OstScene *scene, int region, const O
         if (p == 1)
             drop_parallel(mesh, &slope[0], &slope[1]);
         OST_TRY_DONE(fill_slope(scene, region, &slope[p]));
-        OST_TRY_DONE(find_turns(scene, &slope[p], &turned[p]));
+        if (!axes->directions)
+            OST_TRY_DONE(find_turns(scene, &slope[p], &turned[p]));
     }
-    warn_of_turns(scene, region, fmax(turned[0], turned[1]));
+    if (!axes->directions)
+        warn_of_turns(scene, region, fmax(turned[0], turned[1]));
     for (OstLocal t = 0; t < mesh->tet_count && status == OST_SUCCESS; t++)
         if (mesh->tet_region[t] == region &&
             ost_axes_from_directions(scene->ctx, spec->along, slope[0].of_tet + 3 * (size_t)t,
-                                     two ? slope[1].of_tet + 3 * (size_t)t : NULL, axes + 9 * (size_t)t) != OST_SUCCESS)
+                                     two ? slope[1].of_tet + 3 * (size_t)t : NULL,
+                                     axes->of_tet + 9 * (size_t)t) != OST_SUCCESS)
             status = raise_for_tet(scene, region, t);
+    if (status == OST_SUCCESS && axes->directions)
+        set_directions(scene, region, spec, u, axes);
     status = ost_agree(scene->ctx, status);
 done:
     free_slope(&slope[0]);
@@ -293,7 +320,7 @@ OstStatus ost_scene_check_gradients(const OstScene *scene)
     return OST_SUCCESS;
 }
 
-OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes)
+OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, OstTetAxes *axes)
 {
     OstContext *ctx = scene->ctx;
     OstSupports *supports = NULL;

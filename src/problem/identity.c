@@ -7,6 +7,7 @@
 #include "core/number_set.h"
 #include "core/parallel/gather.h"
 #include "core/parallel/reduce.h"
+#include "material/directions.h"
 #include "material/field_data.h"
 
 #include <math.h>
@@ -55,6 +56,8 @@ static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLoca
         hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
     if (field->tet_eigenstrain)
         hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
+    if (field->tet_directions)
+        hash = ost_hash(hash, OST_DIRECTIONS * (size_t)tets * sizeof(float), field->tet_directions);
     return field->tet_turn ? ost_hash(hash, 4 * (size_t)tets * sizeof(double), field->tet_turn) : hash;
 }
 

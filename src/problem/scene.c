@@ -8,6 +8,7 @@
 #include "core/parallel/free_memory.h"
 #include "fields/output_field.h"
 #include "formats/serial/formats.h"
+#include "material/directions.h"
 #include "orthostat/problem.h"
 #include "orthostat/refine.h"
 #include "problem/scene_parts.h"
@@ -40,7 +41,7 @@ static OstStatus check_mesh_axes(const OstCase *c, const OstMesh *mesh, const Os
 
 /* Axes from gradients, in place of those that came with the mesh. Potentials are of the order of the displacement:
  * linear ones made fibres turn from one quadratic tet to the next, and a reaction 7 % too small where it is 1.5 %. */
-static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
+static OstStatus solve_gradient_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     OstStatus status = OST_SUCCESS;
@@ -60,24 +61,62 @@ static int wants_any(const OstScene *scene, const OstSceneMaterials *materials, 
     return 0;
 }
 
-/* The axes of the mesh, with those of gradients and of fields in their place; NULL if there are none of these. */
-static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *materials, double **axes)
+/* Do a region's axes follow directions within each tet? Only in quadratic tets. */
+static int follows_directions(const OstScene *scene, const OstSceneMaterials *materials, int region)
+{
+    return scene->mesh->nodes_per_tet == 10 && !materials->material[region].isotropic &&
+           (materials->axes[region].kind == OST_AXES_GRADIENT ||
+            ost_scene_field_varies(scene, &materials->axes[region]));
+}
+
+static OstStatus make_room_for_directions(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
+{
+    const int regions = scene->mesh->regions.count;
+    int any = 0;
+    for (int r = 0; r < regions; r++)
+        any |= follows_directions(scene, materials, r);
+    if (!any)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(scene->ctx, &axes->directions, OST_DIRECTIONS * (size_t)scene->mesh->tet_count));
+    OST_TRY(OST_NEW(scene->ctx, &axes->along, 2 * regions));
+    for (int r = 0; r < regions; r++) {
+        const OstAxesSpec *spec = &materials->axes[r];
+        int along[2] = {0};
+        if (follows_directions(scene, materials, r))
+            ost_directions_along(spec->along, spec->from[1] || spec->field[1], along);
+        axes->along[2 * r] = (signed char)along[0];
+        axes->along[2 * r + 1] = (signed char)along[1];
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus make_room(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
+{
+    const int gradients = ost_effect_on(&scene->plan.effects, OST_EFFECT_GRADIENT_AXES);
+    ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
+    OstStatus status = OST_NEW(scene->ctx, &axes->of_tet, 9 * (size_t)scene->mesh->tet_count);
+    ost_ledger_leave(scene->ctx);
+    ost_ledger_enter(scene->ctx, OST_EFFECT_VARYING_AXES);
+    OST_THEN(make_room_for_directions(scene, materials, axes));
+    ost_ledger_leave(scene->ctx);
+    return ost_agree(scene->ctx, status);
+}
+
+/* The axes of the mesh, with those of gradients and of fields in their place; none if there are none of these. */
+static OstStatus make_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     const int gradients = ost_effect_on(&scene->plan.effects, OST_EFFECT_GRADIENT_AXES);
     const int fields = wants_any(scene, materials, OST_AXES_FIELD);
-    *axes = NULL;
     if (!gradients && !fields)
         return OST_SUCCESS;
-    ost_ledger_enter(scene->ctx, gradients ? OST_EFFECT_GRADIENT_AXES : OST_EFFECT_VARYING_AXES);
-    OstStatus status = ost_agree(scene->ctx, OST_NEW(scene->ctx, axes, 9 * (size_t)mesh->tet_count));
-    ost_ledger_leave(scene->ctx);
+    OstStatus status = make_room(scene, materials, axes);
     if (status == OST_SUCCESS && mesh->tet_axes && mesh->tet_count > 0)
-        memcpy(*axes, mesh->tet_axes, 9 * sizeof **axes * (size_t)mesh->tet_count);
+        memcpy(axes->of_tet, mesh->tet_axes, 9 * sizeof(double) * (size_t)mesh->tet_count);
     if (gradients)
-        OST_THEN(solve_gradient_axes(scene, materials, *axes));
+        OST_THEN(solve_gradient_axes(scene, materials, axes));
     if (fields)
-        OST_THEN(ost_agree(scene->ctx, ost_scene_field_axes(scene, materials, *axes)));
+        OST_THEN(ost_agree(scene->ctx, ost_scene_field_axes(scene, materials, axes)));
     return status;
 }
 
@@ -118,16 +157,18 @@ static OstStatus make_field(OstScene *scene, const OstSceneMaterials *materials)
     OstContext *ctx = scene->ctx;
     const OstEffects *effects = &scene->plan.effects;
     const OstMesh *mesh = scene->mesh;
-    double *gradient_axes = NULL;
+    OstTetAxes axes = {0};
     OstStatus status = ost_agree(ctx, check_mesh_axes(scene->c, mesh, materials));
     OST_THEN(ost_scene_check_gradients(scene));
-    OST_THEN(make_axes(scene, materials, &gradient_axes));
+    OST_THEN(make_axes(scene, materials, &axes));
     if (status == OST_SUCCESS)
-        status = ost_scene_locate_axes(scene->c,
-                                       create_field(mesh, effects, materials->material, materials->axes,
-                                                    gradient_axes ? gradient_axes : mesh->tet_axes, &scene->field));
+        status =
+            ost_scene_locate_axes(scene->c, create_field(mesh, effects, materials->material, materials->axes,
+                                                         axes.of_tet ? axes.of_tet : mesh->tet_axes, &scene->field));
     status = ost_agree(ctx, status);
-    OST_FREE(gradient_axes);
+    if (status == OST_SUCCESS && axes.directions)
+        ost_field_take_directions(scene->field, &axes.along, &axes.directions);
+    OST_FREE(axes.of_tet, axes.directions, axes.along);
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_REGIONS))
         status = ost_agree(ctx, ost_scene_set_modulus(scene));
     if (status == OST_SUCCESS && ost_effect_on(effects, OST_EFFECT_EIGENSTRAIN))

@@ -3,12 +3,24 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/small.h"
+#include "material/directions.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* What the mesh file states tet by tet: axes, moduli, eigenstrains. */
+/* What the mesh file states tet by tet, or at vertices: axes, moduli, eigenstrains. */
+
+/* Directions at the vertices are kept where axes vary within the tets, which are or become quadratic; e1, e2 and e3
+ * always, as their mean is no frame. */
+static unsigned use_of(const OstCase *c, const OstCaseField *asked, const OstMeshChunk *chunk)
+{
+    const int quadratic = c->order == 2 || (c->order == 0 && chunk->nodes_per_tet == 10);
+    if (asked->use == OST_CASE_FIELD_OF_DIRECTIONS)
+        return OST_FIELD_OF_DIRECTIONS | (quadratic ? OST_FIELD_AT_VERTICES : 0U);
+    return asked->use == OST_CASE_FIELD_OF_AXES ? OST_FIELD_AT_VERTICES : OST_FIELD_OF_NUMBERS;
+}
 
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
 {
@@ -21,8 +33,7 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
                           "the field '%s' is read from the mesh file, and this mesh comes from none", asked->name));
         OST_TRY(ost_case_located(
             c, asked->place,
-            ost_mesh_file_read_field(c->ctx, c->mesh_file, asked->name,
-                                     asked->directions ? OST_FIELD_OF_DIRECTIONS : OST_FIELD_OF_NUMBERS, chunk)));
+            ost_mesh_file_read_field(c->ctx, c->mesh_file, asked->name, use_of(c, asked, chunk), chunk)));
     }
     return OST_SUCCESS;
 }
@@ -59,21 +70,76 @@ static OstStatus numbers_of(const OstScene *scene, const char *name, OstLocal te
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "it has %d numbers a tet, expected %d", found, width);
 }
 
-static OstStatus axes_of_tet(const OstScene *scene, const OstAxesSpec *spec, OstLocal tet, double axes[9])
+static int is_at_vertices(const OstScene *scene, const char *name)
 {
-    const double *first = NULL, *second = NULL;
-    if (spec->along[0] < 0) {
-        OST_TRY(numbers_of(scene, spec->field[0], tet, 9, &first));
-        memcpy(axes, first, 9 * sizeof *axes);
-        return ost_axes_check(scene->ctx, "e1, e2, e3", axes);
-    }
-    OST_TRY(numbers_of(scene, spec->field[0], tet, 3, &first));
-    if (spec->field[1])
-        OST_TRY(numbers_of(scene, spec->field[1], tet, 3, &second));
-    return ost_axes_from_directions(scene->ctx, spec->along, first, second, axes);
+    const int field = name && scene->mesh->tet_field ? ost_case_find_field(scene->c, name) : -1;
+    return field >= 0 && field < scene->mesh->fields.count && scene->mesh->fields.at_vertices[field];
 }
 
-OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes)
+int ost_scene_field_varies(const OstScene *scene, const OstAxesSpec *spec)
+{
+    return spec->kind == OST_AXES_FIELD &&
+           (is_at_vertices(scene, spec->field[0]) || is_at_vertices(scene, spec->field[1]));
+}
+
+/* Of nine numbers at a vertex, which a finer mesh has from the old one's by means: is e3 about e1 × e2? */
+static OstStatus check_frame(OstContext *ctx, const double at[9])
+{
+    double across[3];
+    ost_cross3(at, at + 3, across);
+    return ost_dot3(across, at + 6) > 0.5 * ost_norm3(at) * ost_norm3(at + 3) * ost_norm3(at + 6)
+               ? OST_SUCCESS
+               : OST_RAISE(ctx, OST_INVALID_INPUT,
+                           "e1 (%g, %g, %g), e2 (%g, %g, %g) and e3 (%g, %g, %g) are no right-handed, orthogonal axes",
+                           at[0], at[1], at[2], at[3], at[4], at[5], at[6], at[7], at[8]);
+}
+
+/* The directions of a tet at its vertices, 4 × 3: one of a field, or e1 and e2 of one of axes. */
+static OstStatus directions_of(const OstScene *scene, const char *name, OstLocal tet, int width, double first[12],
+                               double *second)
+{
+    const int at_vertices = is_at_vertices(scene, name);
+    const double *numbers = NULL;
+    OST_TRY(numbers_of(scene, name, tet, at_vertices ? 4 * width : width, &numbers));
+    for (int v = 0; v < 4; v++) {
+        double axes[9];
+        memcpy(axes, numbers + (at_vertices ? width * v : 0), (size_t)width * sizeof *axes);
+        if (width == 9)
+            OST_TRY(at_vertices ? check_frame(scene->ctx, axes) : ost_axes_check(scene->ctx, "e1, e2, e3", axes));
+        memcpy(first + 3 * v, axes, 3 * sizeof *first);
+        if (width == 9)
+            memcpy(second + 3 * v, axes + 3, 3 * sizeof *second);
+    }
+    return OST_SUCCESS;
+}
+
+static void take_mean(const double vectors[12], double mean[3])
+{
+    for (int i = 0; i < 3; i++)
+        mean[i] = 0.25 * (vectors[i] + vectors[3 + i] + vectors[6 + i] + vectors[9 + i]);
+}
+
+/* Its own axes, and `directions` unless that is NULL. */
+static OstStatus axes_of_tet(const OstScene *scene, const OstAxesSpec *spec, OstLocal tet, double axes[9],
+                             float *directions)
+{
+    const int nine = spec->along[0] < 0, two = nine || spec->field[1];
+    double vectors[2][12], mean[2][3];
+    int along[2];
+    ost_directions_along(spec->along, two, along);
+    OST_TRY(directions_of(scene, spec->field[0], tet, nine ? 9 : 3, vectors[0], vectors[1]));
+    if (two && !nine)
+        OST_TRY(directions_of(scene, spec->field[1], tet, 3, vectors[1], NULL));
+    take_mean(vectors[0], mean[0]);
+    if (two)
+        take_mean(vectors[1], mean[1]);
+    OST_TRY(ost_axes_from_directions(scene->ctx, along, mean[0], two ? mean[1] : NULL, axes));
+    if (directions)
+        ost_directions_set_linear(axes, along, vectors[0], two ? vectors[1] : NULL, directions);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes)
 {
     const OstMesh *mesh = scene->mesh;
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -81,7 +147,10 @@ OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *m
         const OstAxesSpec *spec = &materials->axes[region];
         if (spec->kind != OST_AXES_FIELD || materials->material[region].isotropic)
             continue;
-        if (axes_of_tet(scene, spec, t, axes + 9 * (size_t)t) != OST_SUCCESS)
+        float *directions = axes->directions && ost_scene_field_varies(scene, spec)
+                                ? axes->directions + OST_DIRECTIONS * (size_t)t
+                                : NULL;
+        if (axes_of_tet(scene, spec, t, axes->of_tet + 9 * (size_t)t, directions) != OST_SUCCESS)
             return raise_for_tet(scene, ost_case_material_of(scene->c, mesh->regions.name[region])->axes_place,
                                  spec->field[0], t);
     }

@@ -12,6 +12,13 @@ typedef struct OstSceneMaterials {
     OstAxesSpec *axes;
 } OstSceneMaterials;
 
+/* Axes of the tets of regions that have them by gradients and fields. */
+typedef struct OstTetAxes {
+    double *of_tet;     /* 9 a tet; NULL: no region has such */
+    float *directions;  /* OST_DIRECTIONS a quadratic tet, and the axes that these are, two a region, twice the same */
+    signed char *along; /* of those without (ost_field_take_directions); NULL: none */
+} OstTetAxes;
+
 /* Local, the same on all ranks. One for each of the mesh's regions: the mesh file's materials, overridden by those of
  * the case, later ones first. Raises OST_INVALID_INPUT if the case names a region that does not exist (listing those
  * that do), or leaves one without a material. */
@@ -47,9 +54,10 @@ OstShapeSurface ost_scene_surface(const OstCase *c);
 /* Collective. Axes from one or two harmonic potentials. Each is 0 on its boundary `from`, 1 on its boundary `to`, 1/2
  * where these touch, and has no flux elsewhere. One axis is the gradient of the first; another is the part of the
  * second's orthogonal to it. Tets in which a potential does not vary (all their vertices lie on one boundary) take the
- * mean direction around them. Both are solved at once, as components of a displacement, by the solver of the elastic
- * problem. Fills `axes` (9 a tet) for the region's tets. Account OST_EFFECT_GRADIENT_AXES. */
-OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, double *axes);
+ * mean direction around them. In quadratic tets axes follow the gradients. Both are solved at once, as components of a
+ * displacement, by the solver of the elastic problem. Fills `axes` for the region's tets. Account
+ * OST_EFFECT_GRADIENT_AXES. */
+OstStatus ost_scene_gradient_axes(const OstScene *scene, int region, const OstAxesSpec *spec, OstTetAxes *axes);
 
 /* Collective. Do the boundaries exist that isotropic materials name for gradients? */
 OstStatus ost_scene_check_gradients(const OstScene *scene);
@@ -63,7 +71,8 @@ double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, cons
 
 /* Local. Fills `axes` (9 a tet) of the regions whose axes are fields of the mesh file; gives the tets of regions whose
  * Young's modulus is one their factors. */
-OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, double *axes);
+OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *materials, OstTetAxes *axes);
+int ost_scene_field_varies(const OstScene *scene, const OstAxesSpec *spec); /* are its fields at the vertices? */
 OstStatus ost_scene_set_modulus(OstScene *scene);
 
 /* Local. Gives the scene's field of materials the case's eigenstrains, of regions and of tets. */

@@ -121,7 +121,8 @@ static void gather_at_nodes(const OstResult *result, const OstElement *element, 
 {
     OstSimd places[3 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(batch, element->nodes, result->mesh->coordinates, places);
-    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0, places);
+    ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0,
+                          ost_tet_nodes.point, places);
 }
 
 /* Stress at the nodes of a batch's tets, 6 numbers a node. */

@@ -72,7 +72,7 @@ static void strain_at(const Tet *tet, const double at[4], double strain[6])
     strain_of_gradient(g, strain);
 }
 
-static void find_mode(const View *view, OstLocal tet, const double place[3], Mode *mode)
+static void find_mode(const View *view, OstLocal tet, const double at[4], const double place[3], Mode *mode)
 {
     const OstMaterialField *field = view->result->field;
     const double *along = ost_field_stiff_mode(field, field->tet_region[tet]);
@@ -80,7 +80,7 @@ static void find_mode(const View *view, OstLocal tet, const double place[3], Mod
     *mode = (Mode){.split = along != NULL && view->mesh->nodes_per_tet > 4};
     if (!mode->split)
         return;
-    ost_field_axes_at(field, tet, place, axes);
+    ost_field_axes_at(field, tet, at, place, axes);
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 3; i++) {
             mode->m[i] += along[a] * axes[3 * a + i] * axes[3 * a + i];
@@ -88,13 +88,14 @@ static void find_mode(const View *view, OstLocal tet, const double place[3], Mod
         }
 }
 
-static void take_off_eigenstrain(const View *view, OstLocal tet, const double place[3], double strain[6])
+static void take_off_eigenstrain(const View *view, OstLocal tet, const double at[4], const double place[3],
+                                 double strain[6])
 {
     const OstMaterialField *field = view->result->field;
     double axes[9];
     if (!ost_field_is_eigenstrained(field))
         return;
-    ost_field_axes_at(field, tet, place, axes);
+    ost_field_axes_at(field, tet, at, place, axes);
     ost_field_add_eigenstrain(field, tet, -1.0, axes, strain);
 }
 
@@ -103,7 +104,7 @@ static void elastic_strain_at(const View *view, const Tet *tet, const double at[
                               double strain[6])
 {
     strain_at(tet, at, strain);
-    take_off_eigenstrain(view, tet->number, place, strain);
+    take_off_eigenstrain(view, tet->number, at, place, strain);
 }
 
 static double pressure_at(const Tet *tet, const double at[4])
@@ -112,11 +113,12 @@ static double pressure_at(const Tet *tet, const double at[4])
 }
 
 /* A mixed form's stress without its pressure, of a strain. */
-static void rest_stress(const View *view, OstLocal tet, const double place[3], const double strain[6], double stress[6])
+static void rest_stress(const View *view, OstLocal tet, const double at[4], const double place[3],
+                        const double strain[6], double stress[6])
 {
     const OstMaterialField *field = view->result->field;
     double axes[9], rest[36];
-    ost_field_axes_at(field, tet, place, axes);
+    ost_field_axes_at(field, tet, at, place, axes);
     ost_material_rotate_stiffness(ost_field_rest(field, field->tet_region[tet]), axes, rest);
     ost_apply6(rest, strain, stress);
 }
@@ -131,7 +133,7 @@ static double mean_of_mode(const View *view, const Tet *tet)
         Mode mode;
         ost_shape_values(tet->nodes, point->at, values);
         ost_shape_place(tet->nodes, values, tet->x, place);
-        find_mode(view, tet->number, place, &mode);
+        find_mode(view, tet->number, point->at, place, &mode);
         if (!mode.split)
             return 0.0;
         const double weight = point->weight * ost_shape_gradients(tet->nodes, point->at, tet->x, gradients);
@@ -188,15 +190,15 @@ static OstStatus stress_in_tet(const View *view, const Tet *tet, const double at
     Mode mode;
     elastic_strain_at(view, tet, at, place, strain);
     if (tet->pressure) {
-        find_mode(view, tet->number, place, &mode);
-        rest_stress(view, tet->number, place, strain, stress);
+        find_mode(view, tet->number, at, place, &mode);
+        rest_stress(view, tet->number, at, place, strain, stress);
         for (int p = 0; p < 6; p++)
             stress[p] += pressure_at(tet, at) * mode.m[p];
         return OST_SUCCESS;
     }
     OST_TRY(view->exact->stiffness(view->exact->data, place, c));
     ost_apply6(c, strain, stress);
-    find_mode(view, tet->number, place, &mode);
+    find_mode(view, tet->number, at, place, &mode);
     const double excess = ost_dot6(mode.m, strain) - mean_of_mode(view, tet);
     for (int p = 0; p < 6 && mode.split; p++)
         stress[p] -= excess * mode.m[p];
@@ -379,7 +381,7 @@ static OstStatus add_energy(const View *view, const Tet *tet, const TetPoint *po
     OST_TRY(view->exact->stiffness(view->exact->data, point->place, c));
     strain_of_gradient(g, strain[OF_FORMULA]);
     strain_at(tet, point->at, strain[OF_DIFFERENCE]);
-    find_mode(view, tet->number, point->place, &mode);
+    find_mode(view, tet->number, point->at, point->place, &mode);
     for (int p = 0; p < 6; p++)
         strain[OF_DIFFERENCE][p] -= strain[OF_FORMULA][p];
     for (int s = 0; s < SQUARES; s++) {
@@ -402,9 +404,9 @@ static OstStatus add_mixed(const View *view, const Tet *tet, const TetPoint *poi
     OST_TRY(view->exact->stress(view->exact->data, point->place, exact));
     strain_of_gradient(g, strain[OF_FORMULA]);
     memcpy(elastic, strain[OF_FORMULA], sizeof elastic);
-    take_off_eigenstrain(view, tet->number, point->place, elastic);
-    rest_stress(view, tet->number, point->place, elastic, stress);
-    find_mode(view, tet->number, point->place, &mode);
+    take_off_eigenstrain(view, tet->number, point->at, point->place, elastic);
+    rest_stress(view, tet->number, point->at, point->place, elastic, stress);
+    find_mode(view, tet->number, point->at, point->place, &mode);
     for (int p = 0; p < 6; p++)
         exact[p] -= stress[p];
     pressure[OF_FORMULA] = ost_dot6(mode.m, exact) / ost_dot6(mode.m, mode.m);
@@ -413,7 +415,7 @@ static OstStatus add_mixed(const View *view, const Tet *tet, const TetPoint *poi
     for (int p = 0; p < 6; p++)
         strain[OF_DIFFERENCE][p] -= strain[OF_FORMULA][p];
     for (int s = 0; s < SQUARES; s++) {
-        rest_stress(view, tet->number, point->place, strain[s], stress);
+        rest_stress(view, tet->number, point->at, point->place, strain[s], stress);
         squares[s] +=
             point->weight * (only_pressure ? pressure[s] * pressure[s]
                                            : ost_dot6(stress, strain[s]) + looseness * pressure[s] * pressure[s]);

@@ -1,6 +1,7 @@
 """One direction is enough for a transversely isotropic body: `fibre`, axes of which one is stated, gradients between
 boundaries that touch; and moduli, fibres and axes from fields of the mesh file."""
 import json
+import math
 import os
 
 from program import SANITIZED, SOURCE, check, fewer, new_folder, run, write
@@ -224,6 +225,43 @@ same(answer(text(ABOUT_E1 + ", axes: {field: {e1: direction}}", TWO_CUBES)),
 turning = answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES))
 for ranks in fewer([3]):
     same(answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES), ranks), turning, f"a field of fibres on {ranks} ranks")
+
+# At the vertices of a cube, directions about the line x = -1, y = 0, each of either sense: they vary within quadratic tets,
+# also those of a finer mesh. (Uniform in each tet, they were 10 % off.)
+
+
+def turning_cube(count):
+    places = [(a, b, c) for a in range(count + 1) for b in range(count + 1) for c in range(count + 1)]
+    number = {place: n + 1 for n, place in enumerate(places)}
+    points = [tuple(x / count for x in place) for place in places]
+    tets = [[number[a + (k & 1), b + (k >> 1 & 1), c + (k >> 2 & 1)] for k in tet] for a in range(count) for b in range(count)
+            for c in range(count) for tet in ((0, 1, 3, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 1, 7, 5), (0, 4, 7, 6), (0, 2, 7, 3))]
+    radial = [[(x + 1) / math.hypot(x + 1, y), y / math.hypot(x + 1, y), 0] for x, y, _ in points]
+    tangential = [[-r[1], r[0], 0] for r in radial]
+    fields = {"radial": [[x * (-1) ** n for x in r] for n, r in enumerate(radial)],
+              "tangential": [[2 * x * (-1) ** (n // 3) for x in t] for n, t in enumerate(tangential)],
+              "frame": [r + t + [0, 0, 1] for r, t in zip(radial, tangential)]}
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(points), *(f"{n + 1} {x} {y} {z}" for n, (x, y, z) in enumerate(points)),
+             "$EndNodes", "$Elements", len(tets), *(f"{n + 1} 4 0 " + " ".join(map(str, tet)) for n, tet in enumerate(tets)), "$EndElements"]
+    for name, rows in fields.items():
+        lines += ["$NodeData", 1, f'"{name}"', 1, 0, 3, 0, len(rows[0]), len(rows),
+                  *(f"{n + 1} " + " ".join(map(repr, map(float, row))) for n, row in enumerate(rows)), "$EndNodeData"]
+    write(folder, "turning.msh", "\n".join(map(str, lines)) + "\n")
+
+
+turning_cube(2)
+STIFF_AROUND = "youngs_modulus: [10, 1000, 10], poissons_ratio: 0.3, axes: "
+ABOUT_LINE = STIFF_AROUND + "{cylindrical: {origin: [-1, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}"
+TURNED_HELD = HELD.replace("[2, 0, 0]", "[1, 0, 0]")
+for mesh in fewer(["file: turning.msh", "file: turning.msh, refine: 1"]):
+    expected = answer(text(ABOUT_LINE, mesh, 2, TURNED_HELD))
+    for axes, ranks in fewer([("{field: {e1: radial, e2: tangential}}", 1), ("{field: frame}", 3)]):
+        same(answer(text(STIFF_AROUND + axes, mesh, 2, TURNED_HELD), ranks), expected, f"{axes} at vertices, {mesh}", 0.01)
+adapted = text(ABOUT_LINE, "file: turning.msh", 2, TURNED_HELD).replace("relative_residual: 1e-11", "relative_error: 0.1")
+expected = answer(adapted)
+same(answer(adapted.replace(ABOUT_LINE, STIFF_AROUND + "{field: {e1: radial, e2: tangential}}"), 2), expected, "where an accuracy is asked for", 0.01)
+same(answer(text(STIFF_AROUND + "{field: frame}", "file: turning.msh", 1, TURNED_HELD)),
+     answer(text(ABOUT_LINE, "file: turning.msh", 1, TURNED_HELD)), "of linear tets their mean", 0.02)
 
 # A result of its own as the mesh: its displacements, on points, as fibres; in a .vtkhdf file ranks' pieces share points.
 write(folder, "bent.yaml", text("youngs_modulus: 1000, poissons_ratio: 0.3", TWO_CUBES, 2))

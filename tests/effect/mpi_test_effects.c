@@ -239,6 +239,8 @@ static void what_is_off_is_not_called_and_what_is_on_is(void **state)
         check_case(on, (OstEffect)e, !needs_ranks(e) || ost_size(ctx) > 1);
         check_case(off, (OstEffect)e, 0);
     }
+    if (ost_size(ctx) == 1) /* directions within quadratic tets, and potentials on their nodes */
+        check_case(QUADRATIC STIFF(", " GRADIENTS) HELD PULLED NO_FIELDS, OST_EFFECT_GRADIENT_AXES, 1);
     remove_torn_mesh(file);
 }
 

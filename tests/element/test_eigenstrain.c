@@ -152,17 +152,17 @@ static void it_follows_the_axes(void **state)
     assert_success(ost_field_create(ctx, NULL, 2, materials, axes, 4, region, label, centroids, NULL, &field));
     assert_success(ost_field_set_eigenstrain(field, of_regions, 4, of_tets));
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, tets, 0, NULL, NULL);
     assert_int_equal(elasticity.eigenstrained, 0); /* none of it acts unless asked for */
     elasticity.eigen_share = 0.5;
-    ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, tets, 0, NULL, NULL);
     assert_int_equal(elasticity.eigenstrained, 1);
     const double expected[4][6] = {{0.075, 0.075, 0.25, 0.15}, {0.15}, {0.0, 0.15}, {0.0, 0.1}};
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
         for (int p = 0; p < 6; p++)
             assert_close(elasticity.e0[0][p][slot], expected[tets[slot]][p], 1e-15);
     assert_success(ost_field_set_eigenstrain(field, NULL, 0, NULL));
-    ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, tets, 0, NULL, NULL);
     assert_int_equal(elasticity.eigenstrained, 0);
     ost_field_destroy(&field);
 }

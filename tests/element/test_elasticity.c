@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/memory.h"
 #include "element/element.h"
 #include "element_support.h"
+#include "material/directions.h"
 #include "material/field_data.h"
 #include "support.h"
 
@@ -57,7 +59,7 @@ static void assert_gathered(const OstMaterialField *field)
     for (OstLocal first = 0; first + OST_SIMD_WIDTH <= TETS; first += OST_SIMD_WIDTH) {
         OstLocal tets[OST_SIMD_WIDTH];
         tets_from(first, tets);
-        ost_elasticity_gather(&elasticity, field, tets, 0, NULL);
+        ost_elasticity_gather(&elasticity, field, tets, 0, NULL, NULL);
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             double c[36];
             double size = 0.0;
@@ -96,14 +98,14 @@ static void a_uniform_region_is_gathered_once(void **state)
     tets_from(0, same);
     tets_from(2 * OST_SIMD_WIDTH, vary);
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL, NULL);
     assert_int_equal(elasticity.region, 0);
     elasticity.c[0][0][0] = -1.0; /* would be overwritten */
-    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL, NULL);
     assert_close(elasticity.c[0][0][0], -1.0, 0.0);
-    ost_elasticity_gather(&elasticity, field, vary, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, vary, 0, NULL, NULL);
     assert_int_equal(elasticity.region, -1);
-    ost_elasticity_gather(&elasticity, field, same, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, same, 0, NULL, NULL);
     assert_true(elasticity.c[0][0][0] > 0.0);
     ost_field_destroy(&field);
 }
@@ -122,7 +124,7 @@ static void assert_at_points(const OstMaterialField *field, const OstLocal tets[
     OstSimd places[9];
     some_places(places);
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, tets, 3, places);
+    ost_elasticity_gather(&elasticity, field, tets, 3, ost_tet_degree2.point, places);
     assert_int_equal(elasticity.points, 3);
     for (int point = 0; point < 3; point++)
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -130,7 +132,7 @@ static void assert_at_points(const OstMaterialField *field, const OstLocal tets[
             const double place[3] = {places[3 * point][slot], places[3 * point + 1][slot], places[3 * point + 2][slot]};
             const double *mode = elasticity.by_mean ? ost_field_stiff_mode(field, region) : NULL;
             double axes[9], turned[36], size = 0.0;
-            ost_field_axes_at(field, tets[slot], place, axes);
+            ost_field_axes_at(field, tets[slot], ost_tet_degree2.point[point].at, place, axes);
             ost_material_rotate_stiffness(field->material[region].stiffness, axes, turned);
             for (int p = 0; p < 36; p++)
                 size = fmax(size, fabs(turned[p]));
@@ -168,12 +170,50 @@ static void a_formula_is_evaluated_at_the_points_of_each_tet(void **state)
         assert_at_points(field, mixed ? mixed_tets : vary);
         some_places(places);
         ost_elasticity_clear(&elasticity);
-        ost_elasticity_gather(&elasticity, field, same, 3, places);
+        ost_elasticity_gather(&elasticity, field, same, 3, NULL, places);
         assert_int_equal(elasticity.points, mixed ? 3 : 1); /* fixed axes */
         ost_elasticity_clear(&elasticity);
-        ost_elasticity_gather(&elasticity, field, vary, 0, NULL); /* a linear tet: at the centroid, and whole */
+        ost_elasticity_gather(&elasticity, field, vary, 0, NULL, NULL); /* a linear tet: at the centroid, and whole */
         assert_int_equal(elasticity.points, 1);
         assert_int_equal(elasticity.by_mean, 0);
+        ost_field_destroy(&field);
+    }
+}
+
+/* Has e3 and e1 of the last region follow directions in place of the formula. */
+static void set_directions(OstMaterialField *field)
+{
+    const int axis[2] = {2, 0};
+    signed char *along = NULL;
+    float *directions = NULL;
+    assert_success(OST_NEW(ctx, &along, 2 * REGIONS));
+    assert_success(OST_NEW(ctx, &directions, TETS * OST_DIRECTIONS));
+    along[2 * REGIONS - 2] = 2;
+    for (OstLocal t = 0; t < TETS; t++) {
+        double axes[9], first[12], second[12];
+        ost_field_axes(field, t, axes);
+        for (int k = 0; k < 12; k++) {
+            first[k] = 3.0 * axes[6 + k % 3] + cos(t + k);
+            second[k] = axes[k % 3] + 0.3 * cos(2.0 * t - k);
+        }
+        ost_directions_set_linear(axes, axis, first, second, directions + OST_DIRECTIONS * t);
+    }
+    ost_field_take_directions(field, &along, &directions);
+}
+
+static void directions_are_followed_at_the_points_of_each_tet(void **state)
+{
+    int32_t region[TETS];
+    OstLocal tets[OST_SIMD_WIDTH];
+    for (int mixed = 0; mixed < 2; mixed++) {
+        OstMaterialField *field = make_field(mixed, region);
+        double axes[2][9];
+        set_directions(field);
+        tets_from(mixed ? 2 : 2 * OST_SIMD_WIDTH, tets);
+        assert_at_points(field, tets);
+        for (int p = 0; p < 2; p++)
+            ost_field_axes_at(field, TETS - 1, ost_tet_degree2.point[p].at, (const double[3]){0.0}, axes[p]);
+        assert_true(fabs(axes[0][8] - axes[1][8]) > 1e-3);
         ost_field_destroy(&field);
     }
 }
@@ -195,7 +235,7 @@ static void a_split_elasticity_keeps_its_digits_next_to_incompressible(void **st
         ost_field_create(ctx, NULL, 1, &material, NULL, OST_SIMD_WIDTH, region_0, label, NULL, NULL, &field));
     assert_success(ost_field_mean_dilatation(field, OST_NEARLY_INCOMPRESSIBLE, &regions));
     ost_elasticity_clear(&elasticity);
-    ost_elasticity_gather(&elasticity, field, first_tets, 1, places);
+    ost_elasticity_gather(&elasticity, field, first_tets, 1, NULL, places);
     assert_int_equal(elasticity.by_mean, 1);
     const double expected = bulk + 4.0 / 3.0 * shear, beside = bulk - 2.0 / 3.0 * shear;
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -238,7 +278,7 @@ static void the_familys_elasticity_is_the_rotated_one(void **state)
         OstMaterialField *field = family_field(moduli[n / 4], nu[n % 4], OST_SHEAR_GEOMETRIC, OST_AXES_CELLS);
         OstElasticity elasticity;
         ost_elasticity_clear(&elasticity);
-        ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+        ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL, NULL);
         assert_true(elasticity.stretched);
         assert_false(elasticity.by_stretch);
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -267,7 +307,7 @@ static void stiffness_of_field(const OstMaterialField *field, int stretch_suffic
     }
     ost_elasticity_clear(&elasticity);
     elasticity.stretch_suffices = stretch_suffices;
-    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL, NULL);
     assert_int_equal(elasticity.by_stretch, stretch_suffices);
     ost_element_of(4)->stiffness(x, &elasticity, blocks);
 }
@@ -297,7 +337,7 @@ static void other_shear_has_no_metric(void **state)
     OstElasticity elasticity;
     ost_elasticity_clear(&elasticity);
     elasticity.stretch_suffices = 1;
-    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL);
+    ost_elasticity_gather(&elasticity, field, first_tets, 0, NULL, NULL);
     assert_false(elasticity.stretched);
     assert_false(elasticity.by_stretch);
     ost_field_destroy(&field);
@@ -329,7 +369,7 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
         ost_field_create(ctx, NULL, 1, &material, &spec, OST_SIMD_WIDTH, region_0, label, centroids, NULL, &field));
     ost_elasticity_clear(&about_line);
     about_line.stretch_suffices = 1;
-    ost_elasticity_gather(&about_line, field, first_tets, 0, NULL);
+    ost_elasticity_gather(&about_line, field, first_tets, 0, NULL, NULL);
     assert_true(about_line.by_stretch && about_line.about_line);
     ost_stretch_about_line(&about_line, x, tensor);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
@@ -343,7 +383,7 @@ static void the_metric_about_a_line_is_that_of_its_axes(void **state)
         }
     }
     ost_elasticity_clear(&of_axes); /* C is asked for: the line does not suffice */
-    ost_elasticity_gather(&of_axes, field, first_tets, 0, NULL);
+    ost_elasticity_gather(&of_axes, field, first_tets, 0, NULL, NULL);
     assert_false(of_axes.by_stretch || of_axes.about_line);
     ost_field_destroy(&field);
 }
@@ -375,7 +415,7 @@ static void elasticity_at_points_has_the_axes_there(void **state)
                 places[i][slot] =
                     i > 2 && slot == 0 ? spec.origin[i % 3] + spec.axis[i % 3] : centroids[3 * slot + i % 3];
         ost_elasticity_clear(&elasticity);
-        ost_elasticity_gather(&elasticity, field, first_tets, 2, places);
+        ost_elasticity_gather(&elasticity, field, first_tets, 2, NULL, places);
         assert_int_equal(elasticity.points, 2);
         for (int k = 0; k < 2 * OST_SIMD_WIDTH; k++) {
             double c[36];
@@ -398,6 +438,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(lanes_of_several_regions_hold_theirs),
     cmocka_unit_test(a_uniform_region_is_gathered_once),
     cmocka_unit_test(a_formula_is_evaluated_at_the_points_of_each_tet),
+    cmocka_unit_test(directions_are_followed_at_the_points_of_each_tet),
     cmocka_unit_test(a_split_elasticity_keeps_its_digits_next_to_incompressible),
 };
 

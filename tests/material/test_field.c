@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include "material/axes_formula.h"
+#include "material/directions.h"
 #include "material/field_data.h"
 #include "material/random.h"
 #include "material/turn.h"
@@ -250,11 +251,11 @@ static void a_formula_gives_axes_at_any_point(void **state)
     assert_true(ost_field_has_formula(field, 0));
     assert_false(ost_field_has_formula(field, 1));
     assert_success(ost_axes_at(ctx, &cylindrical, point, expected));
-    ost_field_axes_at(field, 0, point, axes);
+    ost_field_axes_at(field, 0, NULL, point, axes);
     assert_axes(axes, expected, 1e-15);
-    ost_field_axes_at(field, 1, point, axes);
+    ost_field_axes_at(field, 1, NULL, point, axes);
     assert_axes(axes, fixed.fixed, 1e-15);
-    ost_field_axes_at(field, 0, on_axis, axes); /* not defined there: the tet's own */
+    ost_field_axes_at(field, 0, NULL, on_axis, axes); /* not defined there: the tet's own */
     assert_success(ost_axes_at(ctx, &cylindrical, centroids, expected));
     assert_axes(axes, expected, 1e-15);
     ost_field_destroy(&field);
@@ -352,6 +353,36 @@ static void two_stiff_modes_are_left_alone(void **state)
     ost_field_destroy(&field);
 }
 
+/* Radial vectors are linear: axes within the tet are the cylinder's. One that is far off has the tet keep its own. */
+static void directions_at_vertices_give_axes_within_the_tet(void **state)
+{
+    const double x[12] = {1, 0, 0, 1.3, 0.5, 0, 0.9, 0.4, 0.2, 1, 0.3, 0.7}, at[4] = {0.1, 0.2, 0.3, 0.4};
+    const OstAxesSpec spec = {
+        .kind = OST_AXES_CYLINDRICAL, .axis = {0, 0, 1}, .order = {OST_TANGENTIAL, OST_RADIAL, OST_AXIAL}};
+    const int along[2] = {1, 0};
+    const signed char kept[2] = {1, 0};
+    double place[3] = {0.0}, radial[12] = {0.0}, around[12] = {0.0}, own[9], expected[9], axes[9];
+    float directions[OST_DIRECTIONS];
+    for (int v = 0; v < 4; v++)
+        for (int i = 0; i < 3; i++) {
+            place[i] += at[v] * x[3 * v + i];
+            radial[3 * v + i] = (v == 2 ? -1e-100 : 1e-100) * (i < 2 ? x[3 * v + i] : 0.0); /* whatever its sense */
+            around[3 * v + i] = 1e100 * (i == 0 ? -x[3 * v + 1] : i == 1 ? x[3 * v] : 0.0);
+        }
+    assert_success(ost_axes_at(ctx, &spec, (const double[3]){1.05, 0.3, 0.2}, own));
+    assert_success(ost_axes_at(ctx, &spec, place, expected));
+    ost_directions_set_linear(own, along, radial, around, directions);
+    assert_success(ost_directions_at(ctx, directions, kept, at, axes));
+    assert_axes(axes, expected, 1e-6);
+    ost_directions_set_linear(own, along, radial, NULL, directions); /* e1 across it, as the tet has it */
+    assert_success(ost_directions_at(ctx, directions, kept, at, axes));
+    assert_axes(axes, expected, 1e-6);
+    memcpy(radial, around, 3 * sizeof *radial);
+    ost_directions_set_linear(own, along, radial, around, directions);
+    assert_success(ost_directions_at(ctx, directions, kept, at, axes));
+    assert_axes(axes, own, 1e-6);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_isotropic_body_carries_no_axes),
     cmocka_unit_test(fixed_axes_cost_nothing_per_tet),
@@ -362,6 +393,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(given_axes_are_taken_and_bad_ones_refused_by_tet),
     cmocka_unit_test(bad_axes_regions_and_points_are_refused),
     cmocka_unit_test(a_formula_gives_axes_at_any_point),
+    cmocka_unit_test(directions_at_vertices_give_axes_within_the_tet),
     cmocka_unit_test(the_stiff_mode_of_nearly_incompressible_regions_is_found),
     cmocka_unit_test(the_rest_keeps_its_digits_next_to_incompressible),
     cmocka_unit_test(two_stiff_modes_are_left_alone),

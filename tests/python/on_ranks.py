@@ -325,6 +325,26 @@ def poses_turn_rigidly_without_energy(folder):
     assert 0.5 < bent.largest_displacement < 1, bent
 
 
+def axes_at_vertices_vary_within_quadratic_tets(folder):
+    points, tets, _ = cubes(2)
+    mesh = orthostat.Mesh(orthostat.MeshArrays(points, tets)).quadratic()
+    wood = orthostat.Material([10, 1000, 10], 0.3)
+    held = [(mesh.points[:, 0] == 0, [0, 0, 0])]
+    at = mesh.points[mesh.tets[:, :4]]
+    radial = (at + [1, 0, 0]) * [1, 1, 0]
+    radial /= np.linalg.norm(radial, axis=2, keepdims=True)
+    axes = np.stack([radial, np.cross([0, 0, 1], radial), np.tile([0.0, 0, 1], at.shape[:2] + (1,))], axis=2)
+    problem = orthostat.Problem(mesh, wood, axes=axes, constraints=held)
+    u = mesh.points @ np.diag([0.01, 0.02, 0])
+    close(problem.axes[:, 2], np.tile([0.0, 0, 1], (mesh.tet_count, 1)))
+    uniform = orthostat.Problem(mesh, wood, axes=problem.axes, constraints=held).energy(u)
+    assert 1e-3 < abs(problem.energy(u) / uniform - 1) < 0.2, (problem.energy(u), uniform)
+    turned = np.broadcast_to(problem.axes[:, None], axes.shape)
+    close(orthostat.Problem(mesh, wood, axes=turned, constraints=held).energy(u) / uniform, 1, 1e-6)
+    axes[0, 1] *= 2
+    raises(orthostat.InvalidInput, "axes at vertex 1 of local tet 0: e1 has length 2", orthostat.Problem, mesh, wood, axes=axes)
+
+
 def paths_and_accuracies_are_followed(folder):
     case = orthostat.Case({**BAR, "path": {"steps": 3}})
     path = case.scene().path()
@@ -409,7 +429,7 @@ def main():
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
                  many_loads_share_one_hierarchy, load_cases_share_a_stiffness, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
-                 poses_turn_rigidly_without_energy, paths_and_accuracies_are_followed, sweeps_combine_values, communicators_are_handed_over,
+                 poses_turn_rigidly_without_energy, axes_at_vertices_vary_within_quadratic_tets, paths_and_accuracies_are_followed, sweeps_combine_values, communicators_are_handed_over,
                  materials_have_their_matrices):
         try:
             test(folder)

@@ -81,6 +81,25 @@ static OstForecast forecast(const char *mesh, int order, const char *material, c
     return forecast_with(&rates, 1);
 }
 
+/* Potentials are solved for before the stiffness is made, and take most there is. */
+static void potentials_are_foretold(void **state)
+{
+#define MUSCLE                                                                                                        \
+    "youngs_modulus: {plane: 1e6, axis: 1e7}, poissons_ratio: {plane: 0.3, plane_axis: 0.03}, shear_modulus: {axis: " \
+    "4e5}, fibre: "
+    static const char *const body[] = {"block: {size: [1, 1, 1], divisions: [15, 15, 15]}",
+                                       "block: {size: [1, 1, 1], divisions: [8, 8, 8]}"};
+    for (int order = 1; order <= 2; order++) {
+        const char *mesh = body[order - 1], *gradient = MUSCLE "{gradient: {from: xmin, to: xmax}}";
+        const double ratio = foretold_over_taken(mesh, order, gradient, "");
+        if (!(ratio > 1.0 / 1.2 && ratio < 1.2))
+            fail_msg("order %d: foretold %.3f times what was taken", order, ratio);
+        const double seconds = forecast(mesh, order, MUSCLE "[1, 0, 0]", "").in_all;
+        assert_true(forecast(mesh, order, gradient, "").in_all > 1.1 * seconds);
+    }
+#undef MUSCLE
+}
+
 /* A node of a solid block has more neighbours than one of a thin wall. */
 static void a_solid_body_costs_more_an_unknown(void **state)
 {
@@ -301,6 +320,7 @@ static void rates_that_cannot_be_read_are_not_used(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(memory_is_foretold),
+    cmocka_unit_test(potentials_are_foretold),
     cmocka_unit_test(a_solid_body_costs_more_an_unknown),
     cmocka_unit_test(what_is_hard_takes_more),
     cmocka_unit_test(watched_quantities_take_more),

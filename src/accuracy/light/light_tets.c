@@ -67,7 +67,7 @@ static void gather(const OstLightTets *tets, const OstMaterialField *field, size
         memcpy(batch->node[slot], ost_mesh_nodes_of(tets->mesh, tet), (size_t)nodes * sizeof(OstLocal));
     }
     ost_batch_gather_vectors(batch, nodes, tets->mesh->coordinates, batch->x);
-    ost_elasticity_gather(&batch->elasticity, field, batch->tet, 0, NULL);
+    ost_elasticity_gather(&batch->elasticity, field, batch->tet, 0, NULL, NULL);
     if (batch->elasticity.about_line)
         ost_stretch_about_line(&batch->elasticity, batch->x, batch->elasticity.stretch_tensor);
 }
@@ -78,7 +78,7 @@ static Keeping find_keeping_of_quadratic(const OstLightTets *tets, const OstMate
     OstBatch batch;
     int differs = 0;
     for (int32_t region = 0; region < field->region_count; region++)
-        differs |= field->region_varies[region] && ost_field_has_formula(field, region);
+        differs |= field->region_varies[region] && ost_field_varies_within(field, region);
     if (!differs)
         return KEEP_EACH;
     if (field->region_count > 1)

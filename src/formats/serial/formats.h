@@ -18,19 +18,20 @@ typedef struct OstFileMaterials {
 OstStatus ost_mesh_file_read(OstContext *ctx, const char *path, OstMeshChunk **chunk, OstFileMaterials **materials);
 
 /* What a field says of a tet: numbers, or a direction that has no sense (a fibre), of which those of a tet's vertices
- * are turned alike before their mean is taken. */
-typedef enum { OST_FIELD_OF_NUMBERS, OST_FIELD_OF_DIRECTIONS } OstFieldUse;
+ * are turned alike. Of a field on nodes a tet takes the mean of its vertices, or what there is at each of them. */
+typedef enum { OST_FIELD_OF_NUMBERS = 0, OST_FIELD_OF_DIRECTIONS = 1, OST_FIELD_AT_VERTICES = 2 } OstFieldUse;
 
 /* Collective. Adds to the chunk that was read from the file a field, by its name, as further columns of its
- * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh or Exodus file states none. A tet takes the mean of
- * its vertices where the field is on nodes: $NodeData of .msh, PointData of .vtu, .vtk and .vtkhdf, nodal variables. */
-OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, OstFieldUse use,
+ * chunk->tet_field: 1, 3, 6 or 9 numbers a tet; NAN where a .msh or Exodus file states none. On nodes are $NodeData of
+ * .msh, PointData of .vtu, .vtk and .vtkhdf, nodal variables. `use`: bits. */
+OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char *name, unsigned use,
                                    OstMeshChunk *chunk);
 
 /* A field as the reader of a serial format finds it, on the tets or the nodes of a chunk. */
 typedef struct OstFileField {
     int found, on_nodes, width;
-    double *values;   /* tets or nodes × width */
+    int at_vertices;  /* once it is one of tets: are the values those of its vertices? */
+    double *values;   /* tets or nodes × width; or tets × 4 × width */
     char others[256]; /* names of fields that were not asked for, as far as there is room */
 } OstFileField;
 
@@ -38,12 +39,12 @@ typedef struct OstFileField {
 void ost_tet_field_note(OstFileField *field, const char *name, size_t length);
 OstStatus ost_tet_field_raise(OstContext *ctx, const char *path, const char *name, const OstFileField *field);
 
-/* Local. A field on nodes becomes one on tets: the mean of their vertices. */
-OstStatus ost_tet_field_mean(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field);
+/* Local. A field on nodes becomes one on tets: the mean of their vertices, or each. */
+OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFileField *field);
 
 /* Local. Refuses a field of another number of numbers a tet; adds the columns of one to a chunk. */
 OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width);
-OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *name, int width, const double *values);
+OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *name, const OstFileField *field);
 
 /* Local. Is the file's name that of a format that is read? If not, raises OST_INVALID_INPUT with the way to one that
  * is. */

@@ -30,12 +30,13 @@ OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *nam
                            width);
 }
 
-OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *name, int width, const double *values)
+OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *name, const OstFileField *field)
 {
-    const size_t before = (size_t)ost_tet_fields_width(&chunk->fields), after = before + (size_t)width;
+    const size_t columns = (size_t)field->width * (field->at_vertices ? 4U : 1U);
+    const size_t before = (size_t)ost_tet_fields_width(&chunk->fields), after = before + columns;
     OstTetFields *fields = &chunk->fields;
     double *table = NULL;
-    OST_TRY(ost_tet_field_check(chunk->ctx, path, name, width));
+    OST_TRY(ost_tet_field_check(chunk->ctx, path, name, field->width));
     if (fields->count == OST_MOST_TET_FIELDS)
         return OST_RAISE(chunk->ctx, OST_LIMIT_EXCEEDED, "%s: '%s' is one field too many; a case reads %d at most",
                          path, name, OST_MOST_TET_FIELDS);
@@ -43,41 +44,46 @@ OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *n
     for (size_t t = 0; t < (size_t)chunk->tet_count; t++) {
         if (before > 0)
             memcpy(table + after * t, chunk->tet_field + before * t, before * sizeof *table);
-        memcpy(table + after * t + before, values + (size_t)width * t, (size_t)width * sizeof *table);
+        memcpy(table + after * t + before, field->values + columns * t, columns * sizeof *table);
     }
     OST_FREE(chunk->tet_field);
     chunk->tet_field = table;
-    fields->count++;
+    fields->at_vertices[fields->count++] = (char)field->at_vertices;
     fields->first[fields->count] = (int)after;
     return OST_SUCCESS;
 }
 
-/* The mean of a tet's vertices. Directions are turned as the first vertex's before: a fibre has no sense. */
-static void mean_of_vertices(const OstFileField *field, const OstGlobal *nodes, OstFieldUse use, double *mean)
+/* What a field has at the vertices of a tet. Directions are turned as the first vertex's: a fibre has no sense. */
+static void take_vertices(const OstFileField *field, const OstGlobal *nodes, unsigned use, double *at_vertices)
 {
     const size_t width = (size_t)field->width;
     const double *first = field->values + width * (size_t)nodes[0];
-    memset(mean, 0, width * sizeof *mean);
     for (int v = 0; v < 4; v++) {
         const double *value = field->values + width * (size_t)nodes[v];
         double along = 0.0;
-        for (size_t k = 0; k < width && use == OST_FIELD_OF_DIRECTIONS; k++)
+        for (size_t k = 0; k < width && (use & OST_FIELD_OF_DIRECTIONS) != 0; k++)
             along += value[k] * first[k];
         for (size_t k = 0; k < width; k++)
-            mean[k] += (along < 0.0 ? -0.25 : 0.25) * value[k];
+            at_vertices[width * (size_t)v + k] = along < 0.0 ? -value[k] : value[k];
     }
 }
 
-OstStatus ost_tet_field_mean(const OstMeshChunk *chunk, OstFieldUse use, OstFileField *field)
+OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFileField *field)
 {
-    double *mean = NULL;
-    if (!field->on_nodes)
+    const size_t width = (size_t)field->width, kept = (use & OST_FIELD_AT_VERTICES) != 0 ? 4 * width : width;
+    double *of_tets = NULL, at_vertices[4 * 9];
+    if (!field->on_nodes || width > 9)
         return OST_SUCCESS;
-    OST_TRY(OST_NEW(chunk->ctx, &mean, (size_t)chunk->tet_count * (size_t)field->width));
-    for (size_t t = 0; t < (size_t)chunk->tet_count; t++)
-        mean_of_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use,
-                         mean + t * (size_t)field->width);
+    OST_TRY(OST_NEW(chunk->ctx, &of_tets, (size_t)chunk->tet_count * kept));
+    for (size_t t = 0; t < (size_t)chunk->tet_count; t++) {
+        take_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use, at_vertices);
+        for (size_t k = 0; k < kept && kept > width; k++)
+            of_tets[kept * t + k] = at_vertices[k];
+        for (size_t k = 0; k < 4 * width && kept == width; k++)
+            of_tets[width * t + k % width] += 0.25 * at_vertices[k];
+    }
     OST_FREE(field->values);
-    field->values = mean;
+    field->values = of_tets;
+    field->at_vertices = kept > width;
     return OST_SUCCESS;
 }

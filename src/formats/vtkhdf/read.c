@@ -443,7 +443,7 @@ void ost_vtkhdf_note_fields(const OstHdf5 *h5, OstFileField *field)
     }
 }
 
-static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, OstMeshChunk *chunk)
+static OstStatus read_field(Reader *reader, const char *word, unsigned use, OstMeshChunk *chunk)
 {
     const OstHdf5 *h5 = &reader->h5;
     OstGlobal rows = 0;
@@ -465,14 +465,13 @@ static OstStatus read_field(Reader *reader, const char *word, OstFieldUse use, O
     OstStatus status = field.on_nodes
                            ? read_of_points(reader, &sought, &field)
                            : read_of_step(h5, &sought, &field, chunk->global_tets, chunk->first_tet, chunk->tet_count);
-    OST_THEN(ost_tet_field_mean(reader->chunk, use, &field));
-    OST_THEN(ost_tet_field_add(chunk, h5->path, word, field.width, field.values));
+    OST_THEN(ost_tet_field_of_nodes(reader->chunk, use, &field));
+    OST_THEN(ost_tet_field_add(chunk, h5->path, word, &field));
     OST_FREE(field.values);
     return status;
 }
 
-OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstFieldUse use,
-                                OstMeshChunk *chunk)
+OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, unsigned use, OstMeshChunk *chunk)
 {
     Reader reader = {.h5.file = H5I_INVALID_HID};
     OST_TRY(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, try_field, field)));

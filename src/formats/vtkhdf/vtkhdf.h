@@ -29,7 +29,7 @@ int ost_vtkhdf_has_step(const OstStepsFile *file);
 OstStatus ost_vtkhdf_read(OstContext *ctx, const char *path, OstMeshChunk **chunk);
 
 /* Collective. Adds a field on the cells, or on the points, to the chunk that ost_vtkhdf_read made of the file. */
-OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, OstFieldUse use,
+OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, unsigned use,
                                 OstMeshChunk *chunk);
 
 #endif

@@ -210,8 +210,13 @@ static OstStatus fill_tets(const Making *making, const OstGlobal *label)
         chunk->tet_region[i] = mesh->tet_region[leaf->root];
         if (mesh->tet_axes)
             memcpy(chunk->tet_axes + 9 * i, mesh->tet_axes + 9 * (size_t)leaf->root, 9 * sizeof(double));
-        if (field > 0)
-            memcpy(chunk->tet_field + field * i, mesh->tet_field + field * (size_t)leaf->root, field * sizeof(double));
+        if (field > 0) {
+            double place[4][4];
+            for (int v = 0; v < 4; v++)
+                ost_forest_barycentric(forest, leaf, v, place[v]);
+            ost_tet_fields_inherit(&mesh->fields, mesh->tet_field + field * (size_t)leaf->root,
+                                   (const double(*)[4])place, chunk->tet_field + field * i);
+        }
     }
     return OST_SUCCESS;
 }

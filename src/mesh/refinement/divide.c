@@ -143,6 +143,17 @@ static OstStatus choose_tets(Making *making)
     return OST_SUCCESS;
 }
 
+/* Where the vertices of a tet of the new mesh are in its parent. */
+static void child_places(const Making *making, OstLocal tet, double place[4][4])
+{
+    const Pattern *pattern = &making->division->tet;
+    const OstLocal parent = making->origin[tet] / pattern->children;
+    const int *of_child = pattern->node + making->origin[tet] % pattern->children * pattern->nodes;
+    const int *turn = ost_tet_turn[making->turn ? making->turn[parent] : 0];
+    for (int v = 0; v < 4; v++)
+        ost_tet_node_place(turn[of_child[v]], place[v]);
+}
+
 /* The nodes of a tet of the new mesh; returns its parent. */
 static OstLocal child_nodes(const Making *making, OstLocal tet, OstLocal nodes[10])
 {
@@ -250,9 +261,12 @@ static OstStatus fill_tets(Making *making)
         mesh->tet_region[t] = parent->tet_region[from];
         if (parent->tet_axes)
             memcpy(mesh->tet_axes + 9 * (size_t)t, parent->tet_axes + 9 * (size_t)from, 9 * sizeof(double));
-        if (field > 0)
-            memcpy(mesh->tet_field + field * (size_t)t, parent->tet_field + field * (size_t)from,
-                   field * sizeof(double));
+        if (field > 0) {
+            double place[4][4];
+            child_places(making, t, place);
+            ost_tet_fields_inherit(&parent->fields, parent->tet_field + field * (size_t)from, (const double(*)[4])place,
+                                   mesh->tet_field + field * (size_t)t);
+        }
     }
     return OST_SUCCESS;
 }

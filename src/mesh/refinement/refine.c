@@ -89,17 +89,6 @@ done:
     return status;
 }
 
-/* Barycentric coordinates of a tet's node 0-9. */
-static void barycentric(int node, double b[4])
-{
-    for (int v = 0; v < 4; v++)
-        b[v] = node == v ? 1.0 : 0.0;
-    if (node >= 4) {
-        b[ost_tet_edge[node - 4][0]] = 0.5;
-        b[ost_tet_edge[node - 4][1]] = 0.5;
-    }
-}
-
 /* The point of a quadratic tet at barycentric coordinates b. */
 static void map_point(const OstMesh *quadratic, OstLocal tet, const double b[4], double x[3])
 {
@@ -127,8 +116,8 @@ static void map_middles(const Refinement *refinement, MidNodes *mid)
             const OstLocal edge = mid->edges.of_tet[6 * (size_t)t + (size_t)e];
             if (mid->label[mid->mesh->node_count + edge] != ost_mid_nodes_label(mid, t, e))
                 continue;
-            barycentric(turn[child[ost_tet_edge[e][0]]], b[0]);
-            barycentric(turn[child[ost_tet_edge[e][1]]], b[1]);
+            ost_tet_node_place(turn[child[ost_tet_edge[e][0]]], b[0]);
+            ost_tet_node_place(turn[child[ost_tet_edge[e][1]]], b[1]);
             for (int v = 0; v < 4; v++)
                 b[0][v] = 0.5 * (b[0][v] + b[1][v]);
             map_point(refinement->quadratic, parent, b[0], middle + 3 * (size_t)edge);
