@@ -169,7 +169,7 @@ static void add_along_axes(const Visit *visit, const OstSimd *found, int slot, d
     const OstMaterialField *field = visit->operator->problem->field;
     const OstLocal tet = visit->batch.tet[slot];
     double x[3 * OST_MAX_TET_NODES], stress[6 * OST_MAX_TET_NODES], share[OST_MAX_TET_NODES], more[6];
-    if (!ost_field_has_formula(field, field->tet_region[tet]))
+    if (!ost_field_varies_within(field, field->tet_region[tet]))
         return;
     for (int n = 0; n < 30; n++)
         x[n] = visit->batch.x[n][slot];
@@ -184,7 +184,7 @@ static void add_along_axes(const Visit *visit, const OstSimd *found, int slot, d
     }
     for (int a = 0; a < 10; a++)
         share[a] = ost_tet10_share(a);
-    ost_vary_axes(field, tet, 10, share, x, stress, more);
+    ost_vary_axes(field, tet, &ost_tet_nodes, share, x, stress, more);
     for (int p = 0; p < 6; p++)
         along_axes[p] += more[p];
 }

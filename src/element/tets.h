@@ -28,9 +28,9 @@ static inline double ost_tet10_share(int node)
 }
 
 /* Local. By how much the sum of stresses at points of a tet, each times its weight, is larger along the material axes
- * there than along the tet's own: of points x, 3 numbers each. */
-void ost_vary_axes(const OstMaterialField *field, OstLocal tet, int points, const double *weight, const double *x,
-                   const double *stress, double more[6]);
+ * there than along the tet's own: of the rule's points, x, 3 numbers each. */
+void ost_vary_axes(const OstMaterialField *field, OstLocal tet, const OstQuadrature *rule, const double *weight,
+                   const double *x, const double *stress, double more[6]);
 
 /* Local. The stiffness of tets with straight edges and a uniform C (an upper triangle), without quadrature: its blocks
  * are linear combinations of the blocks of the linear tets on the same vertices. */

@@ -65,7 +65,7 @@ static const double rounding_steps = 4.0;
 static const double balance_tolerance = 1e-10;
 
 /* Fields that are lost with the reactions, and with the stresses. */
-static const unsigned forces = 1U << OST_FIELD_REACTION;
+static const unsigned reactions = 1U << OST_FIELD_REACTION;
 static const unsigned stresses =
     1U << OST_FIELD_STRESS | 1U << OST_FIELD_NODE_STRESS | 1U << OST_FIELD_STRAIN | 1U << OST_FIELD_ENERGY;
 
@@ -359,7 +359,7 @@ static int loses_the_forces(const OstResult *result, const OstErrors *errors, co
     if (!(sqrt(sums[SUM_FREE_LOAD]) > rounding_steps * DBL_EPSILON * sums[SUM_FORCE_TERMS]))
         return 0;
     if (errors->known) {
-        error = fmax(error, asks_for(result, forces) ? errors->reaction : 0.0);
+        error = fmax(error, asks_for(result, reactions) ? errors->reaction : 0.0);
         error = fmax(error, asks_for(result, stresses) ? errors->stress : 0.0);
     } else if (ratio_to_deformation(sums) > moves_as_a_whole) {
         const double unstated = sums[SUM_RESIDUAL] > sums[SUM_FREE_LOAD] ? INFINITY : 0.0;

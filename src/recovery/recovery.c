@@ -244,7 +244,7 @@ void ost_tet_mean_along_axes(const OstResult *result, OstLocal tet, double own[6
     OstBatch batch;
     OstElasticity at_points;
     ost_result_material_stress(result, tet, result->stress + 6 * (size_t)tet, own);
-    if (element->nodes != 10 || !ost_field_has_formula(result->field, result->mesh->tet_region[tet]))
+    if (element->nodes != 10 || !ost_field_varies_within(result->field, result->mesh->tet_region[tet]))
         return;
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_points);
@@ -259,13 +259,13 @@ void ost_tet_mean_along_axes(const OstResult *result, OstLocal tet, double own[6
         for (int i = 0; i < 3; i++)
             x[3 * q + i] = places[3 * q + i][0];
     }
-    ost_elasticity_gather(&at_points, result->field, batch.tet, rule->count, places);
+    ost_elasticity_gather(&at_points, result->field, batch.tet, rule->count, rule->point, places);
     stress_at(result, element, &batch, rule, &at_points, all);
     for (int n = 0; n < 6 * rule->count; n++)
         stress[n] = all[n][0];
     for (int q = 0; q < rule->count && result->rotation; q++)
         turn_back(result->rotation + 9 * (size_t)tet, stress + 6 * q);
-    ost_vary_axes(result->field, tet, rule->count, weight, x, stress, more);
+    ost_vary_axes(result->field, tet, rule, weight, x, stress, more);
     for (int p = 0; p < 6; p++)
         own[p] += more[p] / volume;
 }

@@ -168,7 +168,8 @@ static void add_tet(const OstPressureSpace *space, const Columns *columns, const
             const OstLocal column = columns->of_node[batch->node[slot][a]];
             if (column < 0)
                 continue;
-            double *value = coupling->value + 3 * (size_t)find(coupling->row_start, coupling->column, row, column);
+            double *value =
+                coupling->value + 3 * (size_t)ost_row_find(coupling->row_start, coupling->column, row, column);
             for (int i = 0; i < 3; i++)
                 value[i] += of_tet->columns[3 * NODES * v + 3 * a + i][slot];
         }
