@@ -19,6 +19,9 @@ void ost_solve_stop_close(OstSolveStop *stop)
     OST_FREE(stop->displacement);
 }
 
+/* Below this share the estimate has nothing of it, even where moduli differ by 1e6. */
+static const double no_share = 1e-3;
+
 /* Errors of the equations are a share of what moves. Where an eigenstrain is free, or an incompressible part bears the
  * loads, what has an energy of its own may be far less: there the answer's norm is to be this often the equations'
  * error. */
@@ -77,6 +80,7 @@ static OstStatus ask(void *data, const double *u, double error, double *next)
     const OstStatus status =
         ost_estimate_find(stop->estimate, stop->solver, 1.0, stop->displacement, stop->answer, &stop->surplus);
     ost_ledger_leave(ctx);
+    stop->error = error;
     *next = next_error(stop, error);
     ost_log(ctx, OST_LOG_VERBOSE, "solver: error of the equations %.2e, of the discretisation %.2e: on to %.2e", error,
             stop->answer->energy_norm, *next);
@@ -110,4 +114,5 @@ void ost_solve_stop_tighten(OstSolveStop *stop, double error)
 {
     stop->stop.first = error;
     stop->stop.relative = 0;
+    stop->settled = stop->error <= no_share * stop->answer->energy_norm;
 }

@@ -17,6 +17,7 @@ typedef struct OstSolveStop {
     double *displacement;   /* 3 × node_count */
     OstSurplus surplus;     /* of the last estimate; the caller's */
     OstAnswerError *answer; /* the last estimate; the caller's */
+    double error;           /* of the equations, there */
     int settled;            /* the discretisation error is known */
 } OstSolveStop;
 
@@ -26,7 +27,7 @@ OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, doub
                               const OstSurplus *surplus, OstAnswerError *answer, OstSolveStop *stop);
 void ost_solve_stop_close(OstSolveStop *stop);
 
-/* Local. The next solve goes on from where one was stopped, to this error. */
+/* Local. The next solve goes on from where one was stopped, to this error, and looks at the discretisation's again. */
 void ost_solve_stop_tighten(OstSolveStop *stop, double error);
 
 #endif
