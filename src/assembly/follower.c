@@ -212,15 +212,7 @@ static void differentiate(int n, const double *x, double *blocks)
 static double *block_of(const OstSystem *system, OstLocal row, OstLocal column)
 {
     const OstBlockMatrix *matrix = system->matrix;
-    OstLocal low = matrix->row_start[row], high = matrix->row_start[row + 1] - 1;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (matrix->column[middle] < column)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return matrix->value + 9 * (size_t)low;
+    return matrix->value + 9 * (size_t)ost_row_find(matrix->row_start, matrix->column, row, column);
 }
 
 static void stiffen(const OstFollower *follower, double factor, const double *u, OstSystem *system)

@@ -171,20 +171,6 @@ done:
     return status;
 }
 
-/* The block of a row's column, which is there. */
-static OstLocal find_block(const OstBlockMatrix *matrix, OstLocal row, OstLocal column)
-{
-    OstLocal low = matrix->row_start[row], high = matrix->row_start[row + 1] - 1;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (matrix->column[middle] < column)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 OstStatus ost_system_restore_scatter(OstSystem *system)
 {
     const OstMesh *mesh = system->mesh;
@@ -206,7 +192,8 @@ OstStatus ost_system_restore_scatter(OstSystem *system)
                 const OstLocal row = of_a < of_b ? of_a : of_b;
                 *block = -1;
                 if (row >= 0 && row < system->matrix->rows)
-                    *block = find_block(system->matrix, row, of_a < of_b ? of_b : of_a);
+                    *block =
+                        ost_row_find(system->matrix->row_start, system->matrix->column, row, of_a < of_b ? of_b : of_a);
             }
     }
     return OST_SUCCESS;

@@ -64,18 +64,10 @@ OstStatus ost_double_matrix_unfold(OstDoubleMatrix *matrix)
 
 double *ost_double_matrix_find(const OstDoubleMatrix *matrix, OstLocal row, OstLocal column)
 {
-    OstLocal low = matrix->row_start[row];
-    OstLocal high = matrix->row_start[row + 1] - 1;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (matrix->column[middle] < column)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    const OstLocal k = ost_row_find(matrix->row_start, matrix->column, row, column);
     if (matrix->chunk)
-        return ost_chunk_block(matrix->chunk, matrix->place[low] >= 0 ? matrix->place[low] : ~matrix->place[low]);
-    return matrix->value + (size_t)(matrix->size * matrix->size) * (size_t)low;
+        return ost_chunk_block(matrix->chunk, matrix->place[k] >= 0 ? matrix->place[k] : ~matrix->place[k]);
+    return matrix->value + (size_t)(matrix->size * matrix->size) * (size_t)k;
 }
 
 double *ost_double_matrix_diagonal(const OstDoubleMatrix *matrix, OstLocal row)

@@ -25,6 +25,20 @@ typedef struct OstBlockMatrix {
 
 void ost_block_matrix_destroy(OstBlockMatrix **matrix);
 
+/* Local. Where a column stands among the ascending ones of a row, which has it. */
+static inline OstLocal ost_row_find(const OstLocal *row_start, const OstLocal *column, OstLocal row, OstLocal wanted)
+{
+    OstLocal low = row_start[row], high = row_start[row + 1] - 1;
+    while (low < high) {
+        const OstLocal middle = low + (high - low) / 2;
+        if (column[middle] < wanted)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 /* Local. The diagonal block of a row. */
 static inline const double *ost_block_matrix_diagonal(const OstBlockMatrix *matrix, OstLocal row)
 {

@@ -101,19 +101,6 @@ static OstStatus make_rows(const OstPressureSpace *space, const OstSystem *syste
     return status;
 }
 
-static OstLocal find(const OstLocal *start, const OstLocal *column, OstLocal row, OstLocal wanted)
-{
-    OstLocal low = start[row], high = start[row + 1] - 1;
-    while (low < high) {
-        const OstLocal middle = low + (high - low) / 2;
-        if (column[middle] < wanted)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 typedef struct TetCoupling {
     OstSimd columns[VERTICES * 3 * NODES], eigen[VERTICES], mass[10];
 } TetCoupling;
@@ -149,7 +136,7 @@ static void add_mass(int slot, const TetCoupling *of_tet, int v, const OstLocal 
     const OstLocal row = pressures[v];
     const double share = is_fixed ? coupling->looseness[row] / coupling->schur[row] : 1.0;
     for (int w = 0; w < VERTICES; w++) {
-        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
+        const OstLocal k = ost_row_find(coupling->mass_start, coupling->mass_column, row, pressures[w]);
         const double mass = of_tet->mass[pair_of(v, w)][slot];
         coupling->mass[k] += mass;
         if (coupling->estimate != coupling->mass)
@@ -169,7 +156,8 @@ static void add_tet(const OstPressureSpace *space, const OstSystem *system, cons
             const OstLocal column = system->row_of_node[batch->node[slot][a]];
             if (column < 0)
                 continue;
-            double *value = coupling->value + 3 * (size_t)find(coupling->row_start, coupling->column, row, column);
+            double *value =
+                coupling->value + 3 * (size_t)ost_row_find(coupling->row_start, coupling->column, row, column);
             for (int i = 0; i < 3; i++)
                 value[i] += of_tet->columns[3 * NODES * v + 3 * a + i][slot];
         }
@@ -228,7 +216,7 @@ static void find_scales(const OstPressureSpace *space, const OstMaterialField *f
 static void find_diagonal(OstCoupling *coupling)
 {
     for (OstLocal row = 0; row < coupling->rows; row++) {
-        const OstLocal k = find(coupling->mass_start, coupling->mass_column, row, row);
+        const OstLocal k = ost_row_find(coupling->mass_start, coupling->mass_column, row, row);
         if (coupling->estimate[k] == 0.0)
             coupling->estimate[k] = coupling->mass[k];
         coupling->diagonal[row] = coupling->estimate[k];
