@@ -2,6 +2,7 @@
 #include "assembly/system.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/numbering.h"
 #include "core/parallel/route.h"
@@ -181,13 +182,6 @@ static OstStatus send_entries(Condensation *c)
     return status;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static int is_mine(const Condensation *c, OstGlobal row)
 {
     const OstBlockMatrix *matrix = c->system->matrix;
@@ -219,22 +213,17 @@ static OstLocal plain_blocks(const Condensation *c, OstLocal row, OstGlobal *col
 static OstStatus list_ghosts(Condensation *c)
 {
     const OstSystem *whole = c->system->whole;
-    OstLocal listed = 0;
     const OstLocal most = c->count + (whole->matrix->columns - whole->matrix->rows);
     OST_TRY(OST_NEW(c->system->ctx, &c->ghost, most));
     for (OstLocal i = 0; i < c->count; i++)
         if (!is_mine(c, c->entry[i].column))
-            c->ghost[listed++] = c->entry[i].column;
+            c->ghost[c->ghosts++] = c->entry[i].column;
     for (OstLocal column = whole->matrix->rows; column < whole->matrix->columns; column++) {
         const OstGlobal row = c->row_of_node[whole->node_of_row[column]];
         if (row >= 0)
-            c->ghost[listed++] = row;
+            c->ghost[c->ghosts++] = row;
     }
-    if (listed > 0)
-        qsort(c->ghost, (size_t)listed, sizeof *c->ghost, compare_numbers);
-    for (OstLocal i = 0; i < listed; i++)
-        if (i == 0 || c->ghost[i] != c->ghost[c->ghosts - 1])
-            c->ghost[c->ghosts++] = c->ghost[i];
+    c->ghosts = ost_numbers_sort(c->ghosts, c->ghost);
     return OST_SUCCESS;
 }
 
@@ -243,8 +232,7 @@ static OstLocal column_of(const Condensation *c, OstGlobal row)
     const OstBlockMatrix *matrix = c->system->matrix;
     if (is_mine(c, row))
         return (OstLocal)(row - matrix->first_row);
-    const OstGlobal *found = bsearch(&row, c->ghost, (size_t)c->ghosts, sizeof *c->ghost, compare_numbers);
-    return matrix->rows + (OstLocal)(found - c->ghost);
+    return matrix->rows + ost_numbers_find(c->ghosts, c->ghost, row);
 }
 
 typedef struct Block {

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/number_set.h"
 #include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
@@ -148,13 +149,6 @@ static OstStatus share_with_ghosts(OstLinks *links)
     return status;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const OstGlobal x = *(const OstGlobal *)a;
-    const OstGlobal y = *(const OstGlobal *)b;
-    return (x > y) - (x < y);
-}
-
 static int is_mine(const OstLinks *links, OstGlobal number)
 {
     return number >= links->mesh->first_node && number < links->mesh->first_node + links->mesh->owned_nodes;
@@ -163,17 +157,13 @@ static int is_mine(const OstLinks *links, OstGlobal number)
 /* The leaders of other ranks, ascending, each once. */
 static OstStatus list_far_leaders(const OstLinks *links, OstGlobal **number, OstLocal *count)
 {
-    OstLocal listed = 0;
     *count = 0;
     OST_TRY(OST_NEW(links->ctx, number, OST_MOST_LEADERS * (size_t)links->all));
     for (OstLocal i = 0; i < links->all; i++)
         for (int k = 0; k < links->link[i].count; k++)
             if (!is_mine(links, links->link[i].leader[k].number))
-                (*number)[listed++] = links->link[i].leader[k].number;
-    qsort(*number, (size_t)listed, sizeof **number, compare_numbers);
-    for (OstLocal i = 0; i < listed; i++)
-        if (i == 0 || (*number)[i] != (*number)[*count - 1])
-            (*number)[(*count)++] = (*number)[i];
+                (*number)[(*count)++] = links->link[i].leader[k].number;
+    *count = ost_numbers_sort(*count, *number);
     return OST_SUCCESS;
 }
 
@@ -188,12 +178,9 @@ static OstStatus connect_leaders(OstLinks *links)
     links->slots = mesh->owned_nodes + count;
     for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++)
         for (int k = 0; k < links->link[i].count; k++) {
-            const OstGlobal *number = &links->link[i].leader[k].number;
-            links->link[i].slot[k] = (OstLocal)(*number - mesh->first_node);
-            if (!is_mine(links, *number)) {
-                const OstGlobal *found = bsearch(number, far, (size_t)count, sizeof *far, compare_numbers);
-                links->link[i].slot[k] = mesh->owned_nodes + (OstLocal)(found - far);
-            }
+            const OstGlobal number = links->link[i].leader[k].number;
+            links->link[i].slot[k] = is_mine(links, number) ? (OstLocal)(number - mesh->first_node)
+                                                            : mesh->owned_nodes + ost_numbers_find(count, far, number);
         }
     OST_FREE(far);
     return status;
