@@ -120,3 +120,12 @@ void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstF
     else
         (void)ost_together(mesh->ctx, visit_all, OST_MOST_TOGETHER, (void *)field, &request);
 }
+
+void ost_visit_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                      const OstMeans *means)
+{
+    (void)element;
+    (void)u;
+    for (int slot = 0; slot < batch->count; slot++)
+        *(double *)energy += means->energy[slot] * means->volume[slot];
+}

@@ -80,4 +80,8 @@ void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double 
 void ost_visit_means_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation, double t,
                         const double *u, OstMeansVisit visit, void *data);
 
+/* Local. Such a visit: adds the energy of the tets to the double at `energy`. */
+void ost_visit_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
+                      const OstMeans *means);
+
 #endif

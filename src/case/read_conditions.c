@@ -116,12 +116,6 @@ static OstStatus read_pairs(const OstYaml *yaml, const OstYamlNode *node, OstCon
     return OST_SUCCESS;
 }
 
-static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance)
-{
-    OST_TRY(ost_yaml_number(yaml, node, tolerance));
-    return *tolerance >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a distance, 0 or above", "");
-}
-
 enum {
     CONSTRAINT_KINDS = OST_CONSTRAIN_PERIODIC + 1,
     CONSTRAINT_ON = CONSTRAINT_KINDS,
@@ -174,7 +168,7 @@ static OstStatus read_constraint(const OstYaml *yaml, const OstYamlNode *node, O
         [OST_CONSTRAIN_PERIODIC] = {.name = "periodic"},
         [CONSTRAINT_ON] = {.name = "on"},
         [CONSTRAINT_TIME] = {.name = "time"},
-        [TOLERANCE] = {.name = "tolerance", .read = read_tolerance, .into = &constraint->tolerance},
+        [TOLERANCE] = {.name = "tolerance", .read = ost_read_tolerance, .into = &constraint->tolerance},
         [STRAIN] = {.name = "strain"},
     };
     int kind;

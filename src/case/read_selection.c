@@ -33,7 +33,7 @@ static OstStatus read_boundary(const OstYaml *yaml, const OstYamlNode *node, Ost
     return OST_SUCCESS;
 }
 
-static OstStatus read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance)
+OstStatus ost_read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance)
 {
     OST_TRY(ost_yaml_number(yaml, node, tolerance));
     return *tolerance >= 0.0 ? OST_SUCCESS : ost_yaml_raise_type(yaml, node, "a distance, 0 or above", "");
@@ -44,7 +44,7 @@ static OstStatus read_plane(const OstYaml *yaml, const OstYamlNode *node, OstSel
     OstYamlKey keys[] = {
         {.name = "point", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
         {.name = "normal", .needed = 1, .read = ost_yaml_direction, .into = selection->direction},
-        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
+        {.name = "tolerance", .read = ost_read_tolerance, .into = &selection->tolerance},
     };
     return ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys));
 }
@@ -54,7 +54,7 @@ static OstStatus read_box(const OstYaml *yaml, const OstYamlNode *node, OstSelec
     OstYamlKey keys[] = {
         {.name = "min", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
         {.name = "max", .needed = 1, .read = ost_yaml_vector, .into = selection->direction},
-        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
+        {.name = "tolerance", .read = ost_read_tolerance, .into = &selection->tolerance},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
     for (int i = 0; i < 3; i++)
@@ -69,7 +69,7 @@ static OstStatus read_sphere(const OstYaml *yaml, const OstYamlNode *node, OstSe
     OstYamlKey keys[] = {
         {.name = "center", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
         {.name = "radius", .needed = 1, .read = ost_yaml_positive, .into = &selection->radii[1]},
-        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
+        {.name = "tolerance", .read = ost_read_tolerance, .into = &selection->tolerance},
     };
     return ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys));
 }
@@ -82,7 +82,7 @@ static OstStatus read_cylinder(const OstYaml *yaml, const OstYamlNode *node, Ost
         [RADII] = {.name = "radii"},
         {.name = "origin", .needed = 1, .read = ost_yaml_vector, .into = selection->point},
         {.name = "axis", .needed = 1, .read = ost_yaml_direction, .into = selection->direction},
-        {.name = "tolerance", .read = read_tolerance, .into = &selection->tolerance},
+        {.name = "tolerance", .read = ost_read_tolerance, .into = &selection->tolerance},
     };
     int which;
     OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));

@@ -50,6 +50,7 @@ OstStatus ost_read_field(const OstYaml *yaml, const OstYamlNode *node, int direc
 /* A time table, added to those of the case unless it has the same already; `number` is 1 + its place there. */
 OstStatus ost_read_time(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, int *number);
 OstStatus ost_read_selection(const OstYaml *yaml, const OstYamlNode *node, OstSelection *selection);
+OstStatus ost_read_tolerance(const OstYaml *yaml, const OstYamlNode *node, double *tolerance);
 
 /* Copies a text, or a path, which is made relative to the case file's folder. */
 OstStatus ost_read_string(const OstYaml *yaml, const OstYamlNode *node, char **text);

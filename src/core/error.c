@@ -52,6 +52,15 @@ OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int
     return status;
 }
 
+void ost_append(char *text, size_t size, const char *format, ...)
+{
+    const size_t used = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
 OstStatus ost_mpi_check(OstContext *ctx, int mpi_result, const char *call, const char *file, int line)
 {
     if (mpi_result == MPI_SUCCESS)

@@ -8,6 +8,9 @@
 OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int line, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+/* Local. Appends to a text in `size` bytes, as far as there is room. */
+void ost_append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
 /* Raises a failure: return OST_RAISE(ctx, OST_INVALID_INPUT, "...", ...); */
 #define OST_RAISE(ctx, status, ...) ost_error_set((ctx), (status), __FILE__, __LINE__, __VA_ARGS__)
 

@@ -305,21 +305,12 @@ OstStatus ost_problem_load_work(const OstProblem *problem, double t, const doubl
     return ost_sum(problem->ctx, 1, work);
 }
 
-static void add_energy(void *energy, const OstBatch *batch, const OstElement *element, const OstSimd *u,
-                       const OstMeans *means)
-{
-    (void)element;
-    (void)u;
-    for (int slot = 0; slot < batch->count; slot++)
-        *(double *)energy += means->energy[slot] * means->volume[slot];
-}
-
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
 {
     const double grown = ost_problem_eigen_share(problem, t);
     *energy = problem->supports->spring ? ost_spring_energy(problem->supports, u) : 0.0;
     if (problem->formulation == OST_FORMULATION_LINEAR)
-        ost_visit_means(problem->mesh, problem->field, grown, u, add_energy, energy);
+        ost_visit_means(problem->mesh, problem->field, grown, u, ost_visit_energy, energy);
     else
         *energy += ost_large_rotation_energy_of(problem->mesh, problem->field, problem->formulation, grown, u);
     return ost_sum(problem->ctx, 1, energy);

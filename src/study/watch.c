@@ -134,21 +134,12 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     return OST_SUCCESS;
 }
 
-static void add_energy(void *sum, const OstBatch *batch, const OstElement *element, const OstSimd *u,
-                       const OstMeans *means)
-{
-    (void)element;
-    (void)u;
-    for (int slot = 0; slot < batch->count; slot++)
-        *(double *)sum += means->energy[slot] * means->volume[slot];
-}
-
 OstStatus ost_energy_scale(const OstResult *result, double *scale)
 {
     *scale = 0.0;
     if (ost_field_is_eigenstrained(result->field)) {
-        ost_visit_means_of(result->mesh, result->field, result->formulation, 0.0, result->displacement, add_energy,
-                           scale);
+        ost_visit_means_of(result->mesh, result->field, result->formulation, 0.0, result->displacement,
+                           ost_visit_energy, scale);
         OST_TRY(ost_sum(result->ctx, 1, scale));
     }
     *scale = fmax(*scale, fabs(result->checks.strain_energy));

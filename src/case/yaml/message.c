@@ -9,17 +9,6 @@
 
 enum { MESSAGE_SIZE = 2048, WORD_SIZE = 64 };
 
-static void append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static void append(char *text, size_t size, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, size - used, format, arguments);
-    va_end(arguments);
-}
-
 OstStatus ost_yaml_raise(const OstYaml *yaml, const OstYamlNode *node, const char *format, ...)
 {
     char message[MESSAGE_SIZE];
@@ -29,7 +18,7 @@ OstStatus ost_yaml_raise(const OstYaml *yaml, const OstYamlNode *node, const cha
     va_end(arguments);
     const char *setting = ost_yaml_setting(yaml, node);
     if (setting)
-        append(message, sizeof message, " (set by %.200s)", setting);
+        ost_append(message, sizeof message, " (set by %.200s)", setting);
     return OST_RAISE(yaml->ctx, OST_INVALID_INPUT, "%s:%d:%d: %s", yaml->path, ost_yaml_line(node),
                      (int)node->column + 1, message);
 }
@@ -53,12 +42,12 @@ static const OstYamlNode *step_down(const OstYaml *yaml, const OstYamlNode *pare
         key = i % 2 == 0 ? child : NULL;
         child = &yaml->node[child->next];
         if (parent->kind == OST_YAML_SEQUENCE && &yaml->node[child->next] > target)
-            append(text, size, "[%d]", i + 1);
+            ost_append(text, size, "[%d]", i + 1);
     }
     if (parent->kind == OST_YAML_SEQUENCE && child == parent + 1)
-        append(text, size, "[0]");
+        ost_append(text, size, "[0]");
     if (parent->kind == OST_YAML_MAPPING && key && key->kind == OST_YAML_SCALAR)
-        append(text, size, "%s%.40s", text[0] ? "." : "", yaml->text + key->value);
+        ost_append(text, size, "%s%.40s", text[0] ? "." : "", yaml->text + key->value);
     return child;
 }
 
@@ -68,7 +57,7 @@ const char *ost_yaml_place(const OstYaml *yaml, const OstYamlNode *node, char *t
     for (const OstYamlNode *at = yaml->node; at < node;)
         at = step_down(yaml, at, node, text, size);
     if (text[0] == 0)
-        append(text, size, "the case");
+        ost_append(text, size, "the case");
     return text;
 }
 
@@ -76,7 +65,7 @@ void ost_yaml_name_list(const char *const *names, int count, char *text, size_t 
 {
     text[0] = 0;
     for (int i = 0; i < count; i++)
-        append(text, size, "%s%s", i > 0 ? ", " : "", names[i]);
+        ost_append(text, size, "%s%s", i > 0 ? ", " : "", names[i]);
 }
 
 static void describe(const OstYaml *yaml, const OstYamlNode *node, char *text, size_t size)

@@ -92,28 +92,17 @@ const char *ost_yaml_name(const char *name, char text[OST_YAML_NAME])
     return text;
 }
 
-/* Appends as far as there is room. */
-static void append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void append(char *text, size_t size, const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + used, size - used, format, arguments);
-    va_end(arguments);
-}
-
 void ost_passed_warn(OstContext *ctx, const char *path, OstPassed *passed)
 {
     char what[512] = "", ways[1024] = "";
     for (int w = 0; w < passed->count; w++) {
         const struct OstPassedWord *word = &passed->word[w];
-        append(what, sizeof what, "%s%s (%" PRId64 ")", w > 0 ? ", " : "", word->name, word->times);
+        ost_append(what, sizeof what, "%s%s (%" PRId64 ")", w > 0 ? ", " : "", word->name, word->times);
         int known = word->way[0] == '\0';
         for (int before = 0; before < w && !known; before++)
             known = strcmp(passed->word[before].way, word->way) == 0;
         if (!known)
-            append(ways, sizeof ways, "; %s", word->way);
+            ost_append(ways, sizeof ways, "; %s", word->way);
     }
     if (passed->count > 0 && passed->lines > 0)
         ost_warn(ctx, "%s: not read, but without it the body moves otherwise: %s%s. In the case file:%s%s", path, what,
