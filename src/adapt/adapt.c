@@ -29,9 +29,9 @@ static const double most_growth = 4.0;
  * what is finer than it need be. The third: tets made over those expected of marks, as neighbours are cut, too. */
 static const double least_growth = 1.15, worthwhile_growth[2] = {1.25, 1.6}, made_over_marked = 1.5;
 
-/* Seconds grow a little faster than unknowns. Memory of the process, with libraries, over that of Orthostat's arrays.
- */
-static const double seconds_power = 1.1, memory_beside = 2.0;
+/* Seconds grow a little faster than unknowns. */
+static const double seconds_power = 1.1;
+const double ost_memory_beside = 2.0;
 
 /* A request that would take so many times the memory there is, even if the error fell as that of a smooth solution, is
  * out of reach. Refinement then goes on to an error that is small or for so many seconds. */
@@ -72,7 +72,7 @@ static OstStatus allowed_growth(const OstAdaption *adaption, double start, doubl
     OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
     const double by_time =
         pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(seconds_to_end(adaption), 1e-6), 1.0 / seconds_power);
-    const double by_memory = adaption->limits.bytes / (memory_beside * last->bytes);
+    const double by_memory = adaption->limits.bytes / (ost_memory_beside * last->bytes);
     *growth = fmin(by_time, by_memory);
     *end = by_time < by_memory ? OST_ADAPT_OUT_OF_TIME : OST_ADAPT_OUT_OF_MEMORY;
     return OST_SUCCESS;
@@ -176,12 +176,12 @@ static void foretell(OstAdaption *adaption)
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     adaption->rate = rate_of(adaption, 0.1);
     const double growth = growth_to_meet(adaption, adaption->rate);
-    const double room = fmax(adaption->limits.bytes / (memory_beside * last->bytes), 1.0);
+    const double room = fmax(adaption->limits.bytes / (ost_memory_beside * last->bytes), 1.0);
     adaption->reach = error_of(last) * pow(room, -adaption->rate);
     adaption->reach_seconds = pow(room, seconds_power) * seconds_to_end(adaption);
     adaption->needed_unknowns = growth * (double)last->unknowns;
     adaption->needed_seconds = pow(growth, seconds_power) * seconds_to_end(adaption);
-    adaption->needed_bytes = memory_beside * growth * last->bytes;
+    adaption->needed_bytes = ost_memory_beside * growth * last->bytes;
 }
 
 /* --- levels --- */
@@ -331,7 +331,7 @@ static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *ove
     }
     const double growth = growth_to_meet(adaption, power_of(adaption) * last->order / 3.0);
     adaption->left = 0.0;
-    if (growth * memory_beside * last->bytes <= far_beyond * adaption->limits.bytes)
+    if (growth * ost_memory_beside * last->bytes <= far_beyond * adaption->limits.bytes)
         return OST_SUCCESS;
     OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
     *over = error_of(last) <= small_error || elapsed > patience;
@@ -383,7 +383,7 @@ static OstStatus take_failure(OstAdaption *adaption, OstStatus status)
     return status == OST_LIBRARY_FAILED ? status : OST_SUCCESS;
 }
 
-static OstStatus climb(OstAdaption *adaption, const OstCase *c, double start)
+static OstStatus solve_levels(OstAdaption *adaption, const OstCase *c, double start)
 {
     int ended = is_over(adaption);
     OST_TRY(stop_out_of_reach(adaption, start, &ended));
@@ -411,7 +411,7 @@ static OstStatus adapt(OstAdaption *adaption, const OstCase *c)
     OST_TRY(ost_stage_solve(adaption->stage));
     OST_TRY(note_level(adaption, adaption->stage, start));
     warn_of_order(adaption, c);
-    OST_TRY(climb(adaption, c, start));
+    OST_TRY(solve_levels(adaption, c, start));
     if (adaption->end != OST_ADAPT_MET && adaption->end != OST_ADAPT_NO_ESTIMATE)
         foretell(adaption);
     if (adaption->best) {

@@ -7,6 +7,9 @@
 #include "problem/result_data.h"
 #include "problem/scene_data.h"
 
+/* Memory of the process, with libraries, over that of Orthostat's own arrays. */
+extern const double ost_memory_beside;
+
 enum { OST_MOST_ADAPT_LEVELS = 40 };
 
 struct OstAdaption {

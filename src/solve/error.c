@@ -11,14 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this an error need not be known better than one application of the preconditioner tells. */
-static const double small_error = 1e-6;
-
 /* One application of the preconditioner tells up to the condition too much; beyond this one that is not good enough. */
 static const double worst_condition = 100.0;
-
-/* The error is found to a part of its energy, of which forces may hold more than the displacement (docs/checks.md). */
-static const double forces_caution = 2.0;
 
 /* An error of the forces above this seems lost where the displacement's is smaller. */
 static const double large_error = 1e-3;
@@ -26,19 +20,18 @@ static const double large_error = 1e-3;
 /* What is stated of a displacement whose stresses stay that far off, over what was measured. */
 static const double lost_caution = 10.0;
 
-/* Errors by rounding above the first are corrected, until they are small or the last few steps have not halved one. */
-static const double worth_correcting = 1e-4;
-
-/* Where rounding moves the displacement by more, the rounded stiffness tells too little of the tets' softest modes. */
-static const double past_correcting = 0.5;
+/* Corrections end where the last few have not halved the error. */
 enum { MOST_CORRECTIONS = 40, FEW = 3 };
 
 /* Rounding is the reason for a residual this many times that of the solve. */
 static const double unasked = 2.0;
 
-/* Rounding leaves far less than this residual: an error with it is the one asked for, and need not be known to more
- * than a factor of about two, for which one application of the preconditioner will do up to the second condition. */
-static const double large_residual = 1e-4, good_condition = 5.0;
+/* An error that was asked for need not be known to more than a factor of about two, for which one application of the
+ * preconditioner will do up to this condition. */
+static const double good_condition = 5.0;
+
+const double ost_small_error = 1e-6, ost_forces_caution = 2.0, ost_worth_correcting = 1e-4, ost_past_correcting = 0.5,
+             ost_large_residual = 1e-4;
 
 typedef struct Search {
     const OstProblem *problem;
@@ -121,7 +114,7 @@ static double largest(const OstErrors *errors)
 /* Is an error half of what it was, or less? What is small does not count. */
 static int halves(double error, double before)
 {
-    return before > small_error && error < 0.5 * before;
+    return before > ost_small_error && error < 0.5 * before;
 }
 
 /* Did rounding, not the residual asked for, leave this one? */
@@ -200,7 +193,7 @@ static OstStatus iterate(Search *search, Correction *correction, OstErrors *erro
     OstErrors best = *errors;
     int idle_steps = 0;
     double beta;
-    for (int k = 0, taken = 1; largest(errors) > small_error && k < MOST_CORRECTIONS && idle_steps < FEW; k++) {
+    for (int k = 0, taken = 1; largest(errors) > ost_small_error && k < MOST_CORRECTIONS && idle_steps < FEW; k++) {
         OST_TRY(turn(search, correction, k == 0, &beta));
         OST_TRY(take_step(search, correction, beta, &taken));
         if (!taken)
@@ -224,7 +217,7 @@ static double find_caution(const OstLanczos *lanczos, const OstErrors *errors)
     static const double least = 3.0, chance = 10.0;
     double smallest, largest_value;
     ost_lanczos_extremes(lanczos, &smallest, &largest_value);
-    return (largest(errors) > small_error ? chance : least) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
+    return (largest(errors) > ost_small_error ? chance : least) / (smallest > 0.0 ? fmin(smallest, 1.0) : 1.0);
 }
 
 static OstStatus correct(Search *search, OstErrors *errors)
@@ -254,7 +247,7 @@ done:
 static OstStatus look_closer(const Search *search, OstErrors *errors)
 {
     OstErrors before = {0};
-    for (double missing = 1e-2; missing > 1e-9 && largest(errors) > small_error; missing *= 1e-2) {
+    for (double missing = 1e-2; missing > 1e-9 && largest(errors) > ost_small_error; missing *= 1e-2) {
         const int grows =
             errors->displacement > 2.0 * before.displacement || of_forces(errors) > 2.0 * of_forces(&before);
         if (!grows && (search->turned || !seem_lost(errors)))
@@ -270,7 +263,7 @@ static OstStatus measure_asked(Search *search, OstErrors *errors)
 {
     const double condition = search->solved->report->condition_estimate;
     OST_TRY(measure(search, 1.0, errors));
-    if (errors->known && largest(errors) > small_error && condition > good_condition)
+    if (errors->known && largest(errors) > ost_small_error && condition > good_condition)
         OST_TRY(measure(search, 0.1, errors));
     return OST_SUCCESS;
 }
@@ -288,9 +281,9 @@ static OstStatus measure_once(Search *search, double enough, OstErrors *errors)
 static OstStatus measure_all(Search *search, int is_rounding, OstErrors *errors)
 {
     OST_TRY(measure(search, 1.0, errors));
-    if (largest(errors) > small_error || search->solved->report->condition_estimate > worst_condition)
+    if (largest(errors) > ost_small_error || search->solved->report->condition_estimate > worst_condition)
         OST_TRY(measure(search, 0.1, errors));
-    if (is_rounding && largest(errors) > worth_correcting && errors->displacement < past_correcting)
+    if (is_rounding && largest(errors) > ost_worth_correcting && errors->displacement < ost_past_correcting)
         OST_TRY(correct(search, errors));
     OST_TRY(look_closer(search, errors));
     if (errors->known &&
@@ -315,7 +308,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));
     OST_TRY_DONE(blame_rounding(&search, &is_rounding));
-    const int is_asked = !is_rounding && solved->report->relative_residual > large_residual;
+    const int is_asked = !is_rounding && solved->report->relative_residual > ost_large_residual;
     OST_TRY_DONE(once       ? measure_once(&search, enough, errors)
                  : is_asked ? measure_asked(&search, errors)
                             : measure_all(&search, is_rounding, errors));
@@ -325,8 +318,8 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
         goto done;
     errors->asked = is_asked;
     if (!errors->corrected) {
-        errors->reaction *= forces_caution;
-        errors->stress *= forces_caution;
+        errors->reaction *= ost_forces_caution;
+        errors->stress *= ost_forces_caution;
     }
 done:
     if (status == OST_SUCCESS && !problem->supports->spring) { /* whose forces are no tet's */
@@ -352,11 +345,11 @@ OstStatus ost_find_turned_errors(const OstProblem *problem, OstSolver *solver, c
     search.of_rows = search.residual + rows;
     memcpy(search.residual, turned->residual, rows * sizeof *search.residual);
     OST_TRY_DONE(measure(&search, 1.0, errors));
-    if (largest(errors) > small_error)
+    if (largest(errors) > ost_small_error)
         OST_TRY_DONE(measure(&search, 0.1, errors));
     OST_TRY_DONE(look_closer(&search, errors));
-    errors->reaction *= forces_caution;
-    errors->stress *= forces_caution;
+    errors->reaction *= ost_forces_caution;
+    errors->stress *= ost_forces_caution;
 done:
     OST_FREE(search.residual);
     OST_FREE(search.error);

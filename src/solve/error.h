@@ -5,6 +5,13 @@
 #include "algebra/solver.h"
 #include "guard/guard.h"
 
+/* Errors below small_error need not be known better than one application of the preconditioner tells. Those of forces
+ * are stated times forces_caution: the error is found to a part of its energy, of which they may hold more than the
+ * displacement (docs/checks.md). Errors by rounding are corrected above worth_correcting, but not where they move the
+ * displacement by more than past_correcting: the rounded stiffness then tells too little of the tets' softest modes.
+ * Above large_residual rounding is not the reason of an error, but the residual asked for. */
+extern const double ost_small_error, ost_forces_caution, ost_worth_correcting, ost_past_correcting, ost_large_residual;
+
 /* Collective, after ost_solver_solve and while its stiffness lives. The errors of a displacement in the problem's
  * equations at t = 1: the solver finds what the residual f - K u leaves, with K u summed tet by tet. That takes
  * differences of displacements between the nodes of a tet, so it is far more exact than the rounded entries of the

@@ -6,19 +6,17 @@
 
 #include <math.h>
 #include <string.h>
-/* Below this an error need not be known better than one application of the preconditioner tells; above it, so large a
- * part may be missing. */
-static const double small_error = 1e-6, part = 0.1;
 
-/* Reactions and stresses so much worse than the displacement are seldom true: one application makes up to 3000 times
- * too much of them. Below the second number that is no matter, but for those that are worse by the third. */
+/* The part of an error that may be missing where it is iterated for. */
+static const double part = 0.1;
+
+/* One application makes up to 3000 times too much of reactions and stresses: errors of them above least_doubtful and
+ * `doubtful` times that of the displacement are iterated for, and any above most_doubtful times that. */
 static const double doubtful = 10.0, least_doubtful = 1e-7, most_doubtful = 1e2;
 
-/* As in error.c: what is stated over what was measured, of forces and after corrections; which errors are corrected,
- * and above which residual they are as asked for. One application finds the energy of an error, and of the stress in
- * thin layers, which have little of it, a sixth. */
-static const double once_caution = 3.0, forces_caution = 2.0, corrected_caution = 3.0;
-static const double worth_correcting = 1e-4, past_correcting = 0.5, large_residual = 1e-4;
+/* What is stated of forces over what was measured by one application, which finds a sixth of the stress in thin layers,
+ * as they have little of the energy; and of all errors after corrections. */
+static const double once_caution = 3.0, corrected_caution = 3.0;
 enum { MOST_CORRECTIONS = 20 };
 
 typedef struct Search {
@@ -127,8 +125,8 @@ static OstStatus correct(Search *search, OstErrors *errors)
 {
     double before = INFINITY;
     int found = 1;
-    for (int k = 0; found && k < MOST_CORRECTIONS && largest(errors) > small_error && largest(errors) < 0.5 * before;
-         k++) {
+    for (int k = 0;
+         found && k < MOST_CORRECTIONS && largest(errors) > ost_small_error && largest(errors) < 0.5 * before; k++) {
         before = largest(errors);
         take_correction(search);
         OST_TRY(find_residuals(search));
@@ -146,7 +144,7 @@ static int is_rough(const OstErrors *errors, const OstSolveReport *report)
     const double forces = fmax(errors->reaction, errors->stress);
     const int doubts =
         forces > fmax(doubtful * errors->displacement, least_doubtful) || forces > most_doubtful * errors->displacement;
-    return !errors->known || largest(errors) > small_error || doubts || report->iterations > SLOW;
+    return !errors->known || largest(errors) > ost_small_error || doubts || report->iterations > SLOW;
 }
 
 /* After an early stop, which goes on where this is too large. */
@@ -154,8 +152,8 @@ static OstStatus measure_once(Search *search, OstErrors *errors)
 {
     int found;
     OST_TRY(measure(search, ost_solver_mixed_is_poor(search->solver) ? part : 1.0, errors, &found));
-    errors->reaction *= forces_caution;
-    errors->stress *= forces_caution;
+    errors->reaction *= ost_forces_caution;
+    errors->stress *= ost_forces_caution;
     return OST_SUCCESS;
 }
 
@@ -169,10 +167,10 @@ static OstStatus measure_all(Search *search, OstErrors *errors)
     if (is_to_iterate)
         OST_TRY(measure(search, part, errors, &found));
     if (is_to_iterate && found) {
-        if (errors->known && largest(errors) > worth_correcting && errors->displacement < past_correcting &&
-            (report->rounding_limited || report->relative_residual <= large_residual))
+        if (errors->known && largest(errors) > ost_worth_correcting && errors->displacement < ost_past_correcting &&
+            (report->rounding_limited || report->relative_residual <= ost_large_residual))
             OST_TRY(correct(search, errors));
-        caution = errors->corrected ? corrected_caution : forces_caution;
+        caution = errors->corrected ? corrected_caution : ost_forces_caution;
         errors->displacement *= errors->corrected ? caution : 1.0;
     }
     errors->reaction *= caution;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/cost.h"
 
+#include "adapt/adapt.h"
 #include "core/error.h"
 #include "core/parallel/gather.h"
 
@@ -13,9 +14,6 @@ static const double least_growth = 8.0, most_growth = 32.0;
 
 /* Order 2 has the nodes of order 1 on the refined mesh, and about three times as many entries per row. */
 static const double denser_rows = 3.0;
-
-/* Memory of the process, with libraries, over that of Orthostat's own arrays. */
-static const double memory_beside = 2.0;
 
 /* The finished run to predict another from: of its own order rather than the one below, on the finest mesh, of the same
  * tolerance; else the slowest. */
@@ -95,7 +93,7 @@ static OstStatus fits(OstCost *cost, OstCostRun *run, double start, int *yes)
     const OstCostVariants *variants = &cost->variants;
     double bytes, elapsed = ost_seconds() - start;
     predict(cost, run, &run->predicted_seconds, &bytes);
-    bytes *= memory_beside;
+    bytes *= ost_memory_beside;
     OST_TRY(ost_broadcast(cost->ctx, sizeof elapsed, &elapsed));
     const double until = seconds_until(cost, run, elapsed);
     const int is_late = run->accuracy != 0.0 && elapsed >= variants->max_seconds;
