@@ -94,7 +94,7 @@ static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
                              "%s:%d: a distributing coupling with a given motion is solved by linear theory, on a body "
-                             "that is held elsewhere; leave out '%s'",
+                             "that is constrained elsewhere; leave out '%s'",
                              yaml->path, c->loads[i].line, without);
         const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)

@@ -203,10 +203,11 @@ OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *encl
         return OST_SUCCESS;
     return take_objection(
         ctx,
-        OST_RAISE(ctx, OST_INVALID_INPUT,
-                  "%s: the body is incompressible (nu = 1/2) and held all around, and what is prescribed changes its "
-                  "volume: leave a part of its surface free, or set nu = 0.4999",
-                  ost_problem_name(problem)),
+        OST_RAISE(
+            ctx, OST_INVALID_INPUT,
+            "%s: the body is incompressible (nu = 1/2) and constrained all around, and what is prescribed changes its "
+            "volume: leave a part of its surface free, or set nu = 0.4999",
+            ost_problem_name(problem)),
         before);
 }
 

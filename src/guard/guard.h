@@ -28,8 +28,8 @@ OstStatus ost_guard_stiffness(const OstProblem *problem, const double *modes, do
 OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before);
 
 /* Collective, before each solve of a mixed form, with the right-hand side of its pressures. Objects where an
- * incompressible body is held all around and what is prescribed changes its volume: nothing solves that. *enclosed:
- * is it held all around, so that only the shape of the pressure is known, and not its mean? */
+ * incompressible body is constrained all around and what is prescribed changes its volume: nothing solves that.
+ * *enclosed: is it constrained all around, so that only the shape of the pressure is known, and not its mean? */
 OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *enclosed, OstVerdict *before);
 
 /* Collective. Names the worst tet, by number, place and quality, if that quality is below 0.01: it may be why rounding

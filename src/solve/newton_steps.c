@@ -357,7 +357,7 @@ typedef struct Attempt {
     double t; /* to which load factor */
     OstRest rest;
     int found, jumps;
-    int is_shortest; /* is it no longer than the one at which a jump is told? */
+    int is_shortest; /* short enough that a jump is accepted? */
 } Attempt;
 
 static OstStatus attempt_step(OstNewton *newton, const OstNewtonState *state, int most_iterations, Attempt *attempt)

@@ -49,8 +49,8 @@ static void any_compressibility_and_stiffness_is_solved(void **state)
         }
 }
 
-/* A block that is held all around but at its top, and pressed there, cannot give way: the pressure is the load's, and
- * nothing moves. Stress at nodes and in tets is that. */
+/* A block that is constrained all around but at its top, and pressed there, cannot give way: the pressure is the
+ * load's, and nothing moves. Stress at nodes and in tets is that. */
 static void an_incompressible_block_in_a_box_bears_the_load(void **state)
 {
     Run run;
@@ -101,7 +101,7 @@ static void a_body_held_all_around_may_not_change_its_volume(void **state)
                      2.0 * (run.scene->mesh->coordinates[3 * node + 2] - 0.5), 1e-7);
     clear(&run);
     snprintf(text, sizeof text, BOX, "", "0.01");
-    assert_failure(try_to_solve(text, &run), OST_INVALID_INPUT, "held all around");
+    assert_failure(try_to_solve(text, &run), OST_INVALID_INPUT, "constrained all around");
     clear(&run);
     snprintf(text, sizeof text, BOX, ", eigenstrain: 0.01", "0");
     assert_failure(try_to_solve(text, &run), OST_INVALID_INPUT, "changes its volume");

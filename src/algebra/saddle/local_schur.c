@@ -262,8 +262,8 @@ OstStatus ost_local_schur_create(const OstCgSystem *system, const OstCoupling *c
     OST_TRY_DONE(ost_halo_import(coupling->halo, 1, poor));
     OST_TRY_DONE(restrict_to(*local, few ? poor : NULL));
     OST_TRY_DONE(find_largest(*local));
-    ost_log(ctx, OST_LOG_VERBOSE, "solver: %.0f of %.0f pressures are held by far less than their mass says%s", found,
-            all, few ? ", next to fixed nodes" : "");
+    ost_log(ctx, OST_LOG_VERBOSE, "solver: %.0f of %.0f pressures change the volume far less than their mass says%s",
+            found, all, few ? ", next to fixed nodes" : "");
 done:
     OST_FREE(poor);
     if (status != OST_SUCCESS)

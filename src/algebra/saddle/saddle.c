@@ -99,9 +99,9 @@ static void enlarge_by(OstSaddleRun *run, double larger)
     ost_log(run->ctx, OST_LOG_VERBOSE, "solver: the preconditioner is scaled by %.3g", run->tau);
 }
 
-/* From z.u: A z and B z, z.p, and the weight z·Hz. Takes a larger tau where A - N is next to indefinite (*again: 1), or
- * proves not to be positive definite (2). A z.u that has been carried along is no longer N^-1 r to the last digit, and
- * proves nothing. */
+/* Fills A z, B z, z.p and the weight z·Hz from z.u. Enlarges tau where A - N is nearly indefinite: *again is 1 then,
+ * and 2 where it was not positive definite. A z.u that was carried along differs from N^-1 r by rounding, so it is
+ * computed anew before tau is enlarged. */
 static OstStatus complete(OstSaddleRun *run, int *again)
 {
     double sums[SUMS];

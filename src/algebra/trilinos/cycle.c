@@ -9,7 +9,8 @@
 
 #include <string.h>
 
-/* From 2 to 2.5 iterations hardly differ; the larger, the less room there is for eigenvalues above 1. */
+/* Of what the second visit adds. Iterations hardly differ from 2 to 2.5; the larger it is, the less may eigenvalues of
+ * the cycle be above 1. */
 static const double second_weight = 2.25;
 
 typedef struct Level {

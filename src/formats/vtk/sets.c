@@ -40,8 +40,8 @@ static int count_names(const char *name, char sign)
     return count;
 }
 
-/* Would meshio have put this sign between such names? Those before it then stand in some of them: "cell_id" of two
- * numbers is no pair of sets, which had been "cell-id". */
+/* meshio puts the first of the signs between names that none of them contains: those before it in the list must be in
+ * the array's name. "cell_id" of two numbers is no pair of sets: that would be "cell-id". */
 static int may_be_between(const char *name, const char *sign)
 {
     int may = 1;
