@@ -38,11 +38,6 @@ static inline void find_stretch(int nodes, const OstSimd *x, const OstElasticity
     ost_stretch_at(elasticity, fourfold, tensor);
 }
 
-void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6])
-{
-    find_stretch(VERTICES + EDGES, x, elasticity, at, tensor);
-}
-
 OST_KERNEL void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity,
                                        const OstQuadrature *rule, OstSimd tensor[OST_MAX_POINTS][6])
 {
@@ -60,7 +55,7 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
         return;
     }
     if (!elasticity->stretch_at)
-        ost_straight_stretch(x, elasticity, rule->point[q].at, tensor);
+        find_stretch(VERTICES + EDGES, x, elasticity, rule->point[q].at, tensor);
     ost_stretch_stress(elasticity->stretch_at ? elasticity->stretch_at[q] : tensor, elasticity->shear, strain, stress);
 }
 

@@ -21,11 +21,8 @@ void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, cons
 void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
                        OstSimd *at_functions, OstSimd *work);
 
-/* Local. The stretch tensor at a point of the tets, which may be curved, where only the axes' line is known
- * (elasticity->about_line). */
-void ost_straight_stretch(const OstSimd *x, const OstElasticity *elasticity, const double at[4], OstSimd tensor[6]);
-
-/* Local. The same of linear or quadratic tets at the points of a rule. */
+/* Local. The stretch tensor of linear or quadratic tets, which may be curved, at the points of a rule, where only the
+ * axes' line is known (elasticity->about_line). */
 void ost_straight_stretches(int nodes, const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
                             OstSimd tensor[OST_MAX_POINTS][6]);
 

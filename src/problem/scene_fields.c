@@ -27,7 +27,8 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width)
+/* A field's numbers of a tet; NULL if the mesh has none of the name. */
+static const double *field_of(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width)
 {
     const int field = mesh->tet_field ? ost_case_find_field(c, name) : -1;
     if (field < 0 || field >= mesh->fields.count)
@@ -52,7 +53,7 @@ static OstStatus raise_for_tet(const OstScene *scene, OstPlace place, const char
 static OstStatus numbers_of(const OstScene *scene, const char *name, OstLocal tet, int width, const double **numbers)
 {
     int found = 0;
-    *numbers = ost_scene_tet_field(scene->c, scene->mesh, name, tet, &found);
+    *numbers = field_of(scene->c, scene->mesh, name, tet, &found);
     if (*numbers && found == width)
         return OST_SUCCESS;
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "it has %d numbers a tet, expected %d", found, width);
@@ -188,7 +189,7 @@ static OstStatus eigenstrain_of_tets(const OstCase *c, const OstMesh *mesh, doub
         if (!stated || !stated->eigen_field)
             continue;
         int width = 0;
-        const double *field = ost_scene_tet_field(c, mesh, stated->eigen_field, t, &width);
+        const double *field = field_of(c, mesh, stated->eigen_field, t, &width);
         if (!field)
             continue;
         OST_TRY(ost_case_located(c, stated->eigen_place, check_numbers(mesh, t, stated, width, field)));

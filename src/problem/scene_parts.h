@@ -57,9 +57,6 @@ OstStatus ost_scene_check_gradients(const OstScene *scene);
 /* Collective. Reads the fields of the mesh file that the case's materials name into the chunk. */
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk);
 
-/* Local. A field's numbers of a tet; NULL if the mesh has none of the name. */
-const double *ost_scene_tet_field(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width);
-
 /* Local. The factor that a field gives Young's modulus of a tet before the mesh is partitioned; it is not checked. */
 double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, const OstModulusField *modulus,
                                OstLocal tet);

@@ -43,7 +43,8 @@ static void point(const double line[3], double direction[3])
         direction[i] = line[largest] < 0.0 ? -line[i] : line[i];
 }
 
-OstStatus ost_principal(OstContext *ctx, const double tensor[6], double values[3], double *directions)
+/* The eigenvalues, the largest first, and unit vectors along them (rows, unless NULL). */
+static OstStatus find_principal(OstContext *ctx, const double tensor[6], double values[3], double *directions)
 {
     const double full[9] = {tensor[0], tensor[3], tensor[5], tensor[3], tensor[1],
                             tensor[4], tensor[5], tensor[4], tensor[2]};
@@ -75,7 +76,7 @@ static void axes_now(const OstResult *result, OstLocal tet, double axes[9])
         ost_apply3(result->rotation + 9 * (size_t)tet, before + 3 * k, axes + 3 * k);
 }
 
-void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6])
+static void along_material(const OstResult *result, OstLocal tet, const double stress[6], double own[6])
 {
     double axes[9];
     axes_now(result, tet, axes);
@@ -89,14 +90,14 @@ OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double
     if (measure <= OST_STRESS_MEASURE_ZX)
         *value = stress[measure];
     else if (measure <= OST_STRESS_MEASURE_31) {
-        ost_result_material_stress(result, tet, stress, several);
+        along_material(result, tet, stress, several);
         *value = several[measure - OST_STRESS_MEASURE_11];
     } else if (measure == OST_STRESS_MEASURE_VON_MISES)
         *value = ost_von_mises(stress);
     else if (measure == OST_STRESS_MEASURE_PRESSURE)
         *value = -(stress[0] + stress[1] + stress[2]) / 3.0;
     else {
-        OST_TRY(ost_principal(result->ctx, stress, several, NULL));
+        OST_TRY(find_principal(result->ctx, stress, several, NULL));
         *value = several[measure - OST_STRESS_MEASURE_LARGEST_PRINCIPAL];
     }
     return OST_SUCCESS;
@@ -112,7 +113,7 @@ double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterio
     double own[6];
     if (!strength_of(result, tet)->known)
         return OST_MOST_LOAD_FACTOR;
-    ost_result_material_stress(result, tet, stress, own);
+    along_material(result, tet, stress, own);
     return ost_load_factor(strength_of(result, tet), criterion, own);
 }
 
@@ -124,7 +125,7 @@ static double load_factor(const OstResult *result, OstLocal tet, OstCriterion cr
 static OstStatus principal_direction(const OstResult *result, const double *stress, int which, double *value)
 {
     double values[3], directions[9];
-    OST_TRY(ost_principal(result->ctx, stress, values, directions));
+    OST_TRY(find_principal(result->ctx, stress, values, directions));
     memcpy(value, directions + 3 * which, 3 * sizeof *value);
     return OST_SUCCESS;
 }
@@ -145,7 +146,7 @@ static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit
     double strain[6], axes[9];
     switch (field) {
     case OST_FIELD_MATERIAL_STRESS:
-        ost_result_material_stress(result, tet, stress, value);
+        along_material(result, tet, stress, value);
         break;
     case OST_FIELD_MATERIAL_STRAIN:
         ost_field_axes(result->field, tet, axes);
@@ -161,14 +162,14 @@ static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit
         *value = mixed_pressure(result, tet);
         break;
     case OST_FIELD_PRINCIPAL_STRESS:
-        return ost_principal(result->ctx, stress, value, NULL);
+        return find_principal(result->ctx, stress, value, NULL);
     case OST_FIELD_PRINCIPAL_DIRECTION_1:
     case OST_FIELD_PRINCIPAL_DIRECTION_2:
     case OST_FIELD_PRINCIPAL_DIRECTION_3:
         return principal_direction(result, stress, (int)field - OST_FIELD_PRINCIPAL_DIRECTION_1, value);
     case OST_FIELD_PRINCIPAL_STRAIN:
         strain_of(result, tet, strain);
-        return ost_principal(result->ctx, strain, value, NULL);
+        return find_principal(result->ctx, strain, value, NULL);
     case OST_FIELD_E1:
     case OST_FIELD_E2:
     case OST_FIELD_E3:

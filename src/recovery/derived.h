@@ -14,9 +14,6 @@ int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field);
  * material axes of a stress are those that have turned with the tet; those of a strain have not. */
 OstStatus ost_result_derive(const OstResult *result, OstOutputFieldBit field, double *values);
 
-/* Local. A stress of a tet, in world axes, along its material axes. */
-void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6]);
-
 /* Local. A number that is made of a stress of a tet, in world axes. */
 OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,
                              double *value);
@@ -25,11 +22,9 @@ OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double
  * OST_MOST_LOAD_FACTOR: by any factor, or the material has no strengths. */
 double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterion criterion, const double stress[6]);
 
-/* Local. Of a symmetric tensor 11 22 33 12 23 31: components along axes (rows); von Mises' number; its eigenvalues, the
- * largest first, and unit vectors along them (rows, unless NULL). */
+/* Local. Of a symmetric tensor 11 22 33 12 23 31: components along axes (rows); von Mises' number. */
 void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
 double ost_von_mises(const double stress[6]);
-OstStatus ost_principal(OstContext *ctx, const double tensor[6], double values[3], double *directions);
 
 /* Local. The mean of a tet's vertices. */
 void ost_tet_centre(const OstMesh *mesh, OstLocal tet, double place[3]);

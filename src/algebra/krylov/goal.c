@@ -25,7 +25,7 @@ OstStatus ost_goal_set(const OstBlockMatrix *matrix, const double *f, const OstS
     return OST_SUCCESS;
 }
 
-void ost_goal_end_by_iterations(OstGoal *goal)
+static void end_by_iterations(OstGoal *goal)
 {
     goal->end = OST_END_ITERATIONS;
     snprintf(goal->words, sizeof goal->words, "after %d iterations, the most allowed", goal->iterations);
@@ -70,7 +70,7 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
         return 0;
     const double more = remaining(goal);
     if (goal->iterations >= goal->most_iterations) {
-        ost_goal_end_by_iterations(goal);
+        end_by_iterations(goal);
     } else if (goal->patience > 0 && more > goal->patience) {
         goal->end = OST_END_SLOW;
         snprintf(goal->words, sizeof goal->words,
@@ -96,7 +96,7 @@ void ost_goal_explain_end(OstGoal *goal, const char *stall)
                  "the stiffness so uneven",
                  ost_goal_attainable(goal));
     } else if (goal->end == OST_END_REACHED && goal->iterations >= goal->most_iterations) {
-        ost_goal_end_by_iterations(goal);
+        end_by_iterations(goal);
     } else if (goal->end == OST_END_REACHED) {
         goal->end = OST_END_STALLED;
         snprintf(goal->words, sizeof goal->words, "after %d iterations further ones gain nothing%s",

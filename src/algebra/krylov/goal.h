@@ -68,9 +68,6 @@ void ost_goal_begin_pass(OstGoal *goal);
  * go on: not if the target is reached, the pass stagnates, or the iterations or the patience are used up. */
 int ost_goal_count(OstGoal *goal, double norm, double weight);
 
-/* Local. Ends with OST_END_ITERATIONS. */
-void ost_goal_end_by_iterations(OstGoal *goal);
-
 /* Local. Is the residual at the rounding limit? That is an estimate: one a few times larger may still be all rounding.
  */
 int ost_goal_at_limit(const OstGoal *goal);

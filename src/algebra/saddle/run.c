@@ -58,7 +58,8 @@ void ost_saddle_run_destroy(OstSaddleRun *run)
     ost_lanczos_destroy(&run->lanczos);
 }
 
-OstStatus ost_saddle_mass_solve(const OstSaddleRun *run, const double *r, double *z)
+/* z = S^-1 r by the mass matrix and the means of soft parts. */
+static OstStatus mass_solve(const OstSaddleRun *run, const double *r, double *z)
 {
     OST_TRY(ost_coupling_schur_solve(run->saddle->coupling, run->weights, r, z, run->work));
     return run->means ? ost_soft_means_add(run->means, r, z) : OST_SUCCESS;
@@ -66,14 +67,14 @@ OstStatus ost_saddle_mass_solve(const OstSaddleRun *run, const double *r, double
 
 OstStatus ost_saddle_schur_solve(const OstSaddleRun *run, const double *r, double *z)
 {
-    OST_TRY(ost_saddle_mass_solve(run, r, z));
+    OST_TRY(mass_solve(run, r, z));
     return run->local ? ost_local_schur_add(run->local, r, z) : OST_SUCCESS;
 }
 
 OstStatus ost_saddle_find_norm(OstSaddleRun *run, double *norm)
 {
     double squares[OST_SADDLE_SQUARES];
-    OST_TRY(ost_saddle_mass_solve(run, run->r.p, run->q));
+    OST_TRY(mass_solve(run, run->r.p, run->q));
     OST_TRY(ost_saddle_squares(run->saddle->coupling, run->r.u, run->r.p, run->q, run->w, squares));
     *norm = sqrt(squares[OST_SADDLE_FORCE] +
                  run->goal->start * run->goal->start / run->energy * squares[OST_SADDLE_VOLUME]);

@@ -52,8 +52,7 @@ OstSaddleRun ost_saddle_run_of(const OstCgSystem *system, const OstPreconditione
 OstStatus ost_saddle_run_create(OstSaddleRun *run);
 void ost_saddle_run_destroy(OstSaddleRun *run);
 
-/* Collective. z = S^-1 r: by the mass matrix and the means of soft parts; and by all that is known of S. */
-OstStatus ost_saddle_mass_solve(const OstSaddleRun *run, const double *r, double *z);
+/* Collective. z = S^-1 r, by all that is known of S. */
 OstStatus ost_saddle_schur_solve(const OstSaddleRun *run, const double *r, double *z);
 
 /* Collective. z = N^-1 r. */

@@ -133,7 +133,8 @@ static int goes_on(const OstLineReader *lines)
     return length > 0 && lines->text[length - 1] == ',';
 }
 
-OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword)
+/* At the reader's line, with the lines that it goes on in. */
+static OstStatus parse_keyword(OstInp *inp, OstInpKeyword *keyword)
 {
     const char *text = inp->lines->text + strspn(inp->lines->text, " \t") + 1;
     const char *end = text + strcspn(text, ",");
@@ -369,7 +370,7 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword)
 static OstStatus read_keyword(OstInp *inp, int depth)
 {
     OstInpKeyword keyword;
-    OST_TRY(ost_inp_keyword(inp, &keyword));
+    OST_TRY(parse_keyword(inp, &keyword));
     const char *input = ost_inp_value(&keyword, "INPUT");
     if (inp->filled > 0)
         return OST_RAISE_LINE(inp->lines, "element %" PRId64 " has %d nodes, expected %d", inp->element[0],

@@ -77,7 +77,6 @@ typedef struct OstInp {
     OstCellKind kind;
     int filled; /* numbers of the present element that have been read: its own, then its nodes' */
     OstGlobal element[28];
-    OstGlobal last_element;
     const char *shape; /* of elements that are skipped */
     char type[OST_INP_WORD];
     int dimension;
@@ -98,8 +97,6 @@ typedef struct OstInp {
     OstInpSection *section;
 } OstInp;
 
-/* Local. Parses the keyword at the reader's line, with the lines that it goes on in. */
-OstStatus ost_inp_keyword(OstInp *inp, OstInpKeyword *keyword);
 /* The value of a parameter: "" for one without; NULL if it is not there. */
 const char *ost_inp_value(const OstInpKeyword *keyword, const char *parameter);
 

@@ -7,9 +7,9 @@
 const char *const ost_stage_label[] = {OST_STAGE_TABLE(STAGE_LABEL)};
 #undef STAGE_LABEL
 
-/* What an effect calls for is part of the assembly, but for the linear space, which multigrid stands on, and what comes
- * after the solve. */
-OstStage ost_stage_of(OstAccount account)
+/* What an effect calls for is part of the assembly, but for the linear space, which is a level of multigrid, and what
+ * comes after the solve. */
+static OstStage stage_of(OstAccount account)
 {
     switch (account) {
     case OST_LEDGER_MESH:
@@ -40,5 +40,5 @@ void ost_stage_sum(const OstMeter *meter, double seconds[OST_STAGES])
 {
     memset(seconds, 0, OST_STAGES * sizeof *seconds);
     for (int a = 0; a < OST_EFFECT_END; a++)
-        seconds[ost_stage_of(a)] += meter->account[a];
+        seconds[stage_of(a)] += meter->account[a];
 }

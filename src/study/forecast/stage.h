@@ -20,9 +20,6 @@ typedef enum { OST_STAGE_TABLE(OST_STAGE_ENUM) OST_STAGES } OstStage;
 
 extern const char *const ost_stage_label[]; /* by OstStage */
 
-/* Local. The stage that an account of the ledger belongs to. */
-OstStage ost_stage_of(OstAccount account);
-
 /* Local. Sums a meter's accounts by stage. */
 void ost_stage_sum(const OstMeter *meter, double seconds[OST_STAGES]);
 
