@@ -144,12 +144,6 @@ int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 int ost_watch_is_linear_mean(const OstWatch *watch);
 #define OST_UNEVEN_MODULI 30.0
 
-/* Local. Watched reactions that statics alone does not give, as far as the case tells; and watched quantities whose
- * error takes an adjoint problem: these, mean stresses of a mixed form or of moduli that differ far, and what an
- * accuracy is asked of. */
-int ost_plan_reactions(const OstCase *c);
-int ost_plan_adjoints(const OstCase *c, int mixed);
-
 /* Of so many load cases share adjoint problems (solve/reactions/reactions.h). */
 enum { OST_PLAN_MOST_SHARED = 12 };
 

@@ -78,102 +78,6 @@ static void count_recovered(const OstCase *c, OstEffectFacts *facts)
     }
 }
 
-/* Edges of a mesh from a file follow no direction, as a rule. How far they are off the stiff ones, which the solver
- * measures, is 1 + this × the root of the ratio of moduli: gears, brackets, spindles and pins have 1.1 to 1.25 at 10,
- * 1.5 to 2.0 at 100, 2.8 to 5.6 at 1000, 7.6 at 1e4, 22 at 1e5, 67 to 97 at 1e6. */
-static const double usual_crossing = 0.07;
-
-/* What the solver measures of a shape's cells, whose diagonals are longer than they are. */
-static const double of_diagonals = 1.35;
-
-void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
-{
-    const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
-    const OstMeshCounts counts = ost_mesh_counts((double)mesh->nodes, (double)mesh->tets, mesh->quadratic, surface);
-    OstEffectFacts facts = {.quadratic = mesh->quadratic,
-                            .nodes = counts.nodes,
-                            .tets = counts.tets,
-                            .vertices = counts.vertices,
-                            .edges = counts.edges,
-                            .regions = mesh->regions ? mesh->regions->count : 1,
-                            .ranks = ranks,
-                            .stiff_welded = (mesh->welded & OST_WELDED_STIFF) != 0,
-                            .close_welded = (mesh->welded & OST_WELDED_CLOSE) != 0,
-                            .merge = c->merge,
-                            .without = c->without};
-    memset(plan, 0, sizeof *plan);
-    plan->counts = counts;
-    plan->quadratic = mesh->quadratic;
-    plan->nodes = mesh->nodes;
-    plan->tets = mesh->tets;
-    ost_plan_shape_slenderness(c, &plan->slenderness, &plan->cells_across);
-    plan->unknowns = 3 * mesh->nodes;
-    plan->facts.unknowns = plan->unknowns;
-    if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
-        plan->facts.thickness = 8.0 * counts.vertices / fmax(counts.surface, 1.0);
-    plan->facts.stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
-    plan->facts.repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
-    ost_plan_materials(c, mesh, &facts, &plan->facts);
-    if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > 1.0)
-        plan->facts.misalignment = 1.0 + usual_crossing * sqrt(plan->facts.anisotropy);
-    if (mesh->quadratic && plan->slenderness < ost_plan_longest_of_columns)
-        plan->facts.slenderness = of_diagonals * plan->slenderness;
-    count_constraints(c, &facts);
-    count_loads(c, mesh->load, &facts);
-    count_cases(c, &facts);
-    count_springs(c, &facts);
-    facts.large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
-                           : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
-                                                                        : 1;
-    facts.classical = c->formulation == OST_FORMULATION_CLASSICAL;
-    facts.formulation = c->formulation == OST_FORMULATION_CLASSICAL ? "classical" : "consistent";
-    facts.accuracy = c->relative_error;
-    facts.path_steps = c->path_steps;
-    facts.tables = c->table_count;
-    facts.asks_error = c->asks_error && c->path_steps == 0;
-    facts.watches = c->watch_count;
-    facts.error_field = ost_plan_writes(c, OST_FIELD_ERROR);
-    count_recovered(c, &facts);
-    facts.mixed = !c->unmixed;
-    if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
-        plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
-    plan->adjoints = ost_plan_adjoints(c, ost_effects_mixed(&facts));
-    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
-    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
-    ost_effects_find(&facts, &plan->effects);
-    const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
-                          ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
-                          ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
-    plan->solves_to_residual =
-        ost_plan_reactions(c) > 0 && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
-    plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
-                  (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
-    ost_effects_name_accounts(c->ctx);
-    ost_plan_memory(c, ranks, plan);
-}
-
-OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
-{
-    const OstGlobal most = INT32_MAX / 3;
-    if (c->mesh_kind == OST_MESH_FROM_PROGRAM)
-        return ost_case_located(c, c->mesh_place,
-                                OST_RAISE(c->ctx, OST_INVALID_INPUT,
-                                          "the case expects its mesh from a program (ost_scene_create_on), and there "
-                                          "is none here; name a shape or a file"));
-    if (nodes <= most)
-        return OST_SUCCESS;
-    return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,
-                     "%s: %s%lld nodes have three unknowns each; Epetra and ML number at most 2^31 - 1 over all ranks, "
-                     "which is %lld nodes: use a coarser mesh",
-                     c->path, nodes == OST_PLAN_MOST ? "more than " : "", (long long)nodes, (long long)most);
-}
-
-int ost_plan_acts(const OstCase *c, const OstPlan *plan)
-{
-    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
-           ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN);
-}
-
 /* --- what is watched --- */
 
 /* Do the boundaries watched hold all of a constraint? */
@@ -202,7 +106,8 @@ int ost_watch_is_linear_mean(const OstWatch *watch)
            (watch->component <= OST_STRESS_MEASURE_31 || watch->component == OST_STRESS_MEASURE_PRESSURE);
 }
 
-int ost_plan_reactions(const OstCase *c)
+/* Watched reactions that statics alone does not give, as far as the case tells. */
+static int count_reactions(const OstCase *c)
 {
     int count = 0;
     for (int w = 0; w < c->watch_count; w++)
@@ -222,13 +127,125 @@ static int is_uneven(const OstCase *c)
     return most >= OST_UNEVEN_MODULI * least;
 }
 
-int ost_plan_adjoints(const OstCase *c, int mixed)
+/* Watched quantities whose error takes an adjoint problem: these, mean stresses of a mixed form or of moduli that
+ * differ far, and what an accuracy is asked of. */
+static int count_adjoints(const OstCase *c, int mixed)
 {
     const int of_means = mixed || is_uneven(c);
-    int count = ost_plan_reactions(c);
+    int count = count_reactions(c);
     for (int w = 0; w < c->watch_count && of_means && c->large_rotation != OST_LARGE_ROTATION_ON; w++)
         count += ost_watch_is_linear_mean(&c->watches[w]);
     if (c->interest > 0 && c->watches[c->interest - 1].kind != OST_WATCH_STRAIN_ENERGY)
         count++;
     return count;
+}
+
+/* --- the plan --- */
+
+/* Edges of a mesh from a file follow no direction, as a rule. How far they are off the stiff ones, which the solver
+ * measures, is 1 + this × the root of the ratio of moduli: gears, brackets, spindles and pins have 1.1 to 1.25 at 10,
+ * 1.5 to 2.0 at 100, 2.8 to 5.6 at 1000, 7.6 at 1e4, 22 at 1e5, 67 to 97 at 1e6. */
+static const double usual_crossing = 0.07;
+
+/* What the solver measures of a shape's cells, whose diagonals are longer than they are. */
+static const double of_diagonals = 1.35;
+
+/* But for materials, what is recovered and what the solver may be. */
+static OstEffectFacts state_facts(const OstCase *c, const OstPlanMesh *mesh, const OstMeshCounts *counts, int ranks)
+{
+    const int classical = c->formulation == OST_FORMULATION_CLASSICAL;
+    OstEffectFacts facts = {.quadratic = mesh->quadratic,
+                            .nodes = counts->nodes,
+                            .tets = counts->tets,
+                            .vertices = counts->vertices,
+                            .edges = counts->edges,
+                            .regions = mesh->regions ? mesh->regions->count : 1,
+                            .ranks = ranks,
+                            .stiff_welded = (mesh->welded & OST_WELDED_STIFF) != 0,
+                            .close_welded = (mesh->welded & OST_WELDED_CLOSE) != 0,
+                            .merge = c->merge,
+                            .without = c->without,
+                            .large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
+                                              : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
+                                                                                           : 1,
+                            .classical = classical,
+                            .formulation = classical ? "classical" : "consistent",
+                            .accuracy = c->relative_error,
+                            .path_steps = c->path_steps,
+                            .tables = c->table_count,
+                            .asks_error = c->asks_error && c->path_steps == 0,
+                            .watches = c->watch_count,
+                            .error_field = ost_plan_writes(c, OST_FIELD_ERROR),
+                            .mixed = !c->unmixed};
+    count_constraints(c, &facts);
+    count_loads(c, mesh->load, &facts);
+    count_cases(c, &facts);
+    count_springs(c, &facts);
+    return facts;
+}
+
+/* Of the solver's facts those that are not of materials. */
+static void state_solver_facts(const OstCase *c, const OstPlanMesh *mesh, const OstPlan *plan, OstSolverFacts *facts)
+{
+    facts->unknowns = plan->unknowns;
+    if (mesh->quadratic) /* two nodes a tet across; a vertex has about half a face on each of two surfaces */
+        facts->thickness = 8.0 * plan->counts.vertices / fmax(plan->counts.surface, 1.0);
+    facts->stops_early = c->solver.algebraic_fraction > 0.0 && ost_plan_writes(c, OST_FIELD_ERROR);
+    facts->repeated = c->path_steps > 0 || c->large_rotation == OST_LARGE_ROTATION_ON;
+    if (mesh->quadratic && plan->slenderness < ost_plan_longest_of_columns)
+        facts->slenderness = of_diagonals * plan->slenderness;
+}
+
+void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
+{
+    const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
+    memset(plan, 0, sizeof *plan);
+    plan->counts = ost_mesh_counts((double)mesh->nodes, (double)mesh->tets, mesh->quadratic, surface);
+    plan->quadratic = mesh->quadratic;
+    plan->nodes = mesh->nodes;
+    plan->tets = mesh->tets;
+    plan->unknowns = 3 * mesh->nodes;
+    ost_plan_shape_slenderness(c, &plan->slenderness, &plan->cells_across);
+    OstEffectFacts facts = state_facts(c, mesh, &plan->counts, ranks);
+    state_solver_facts(c, mesh, plan, &plan->facts);
+    ost_plan_materials(c, mesh, &facts, &plan->facts);
+    if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > 1.0)
+        plan->facts.misalignment = 1.0 + usual_crossing * sqrt(plan->facts.anisotropy);
+    count_recovered(c, &facts);
+    if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
+        plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
+    plan->adjoints = count_adjoints(c, ost_effects_mixed(&facts));
+    ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
+    facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
+    ost_effects_find(&facts, &plan->effects);
+    const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
+                          ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
+    plan->solves_to_residual = count_reactions(c) > 0 && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
+    plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
+                  (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
+    ost_effects_name_accounts(c->ctx);
+    ost_plan_memory(c, ranks, plan);
+}
+
+OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
+{
+    const OstGlobal most = INT32_MAX / 3;
+    if (c->mesh_kind == OST_MESH_FROM_PROGRAM)
+        return ost_case_located(c, c->mesh_place,
+                                OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                                          "the case expects its mesh from a program (ost_scene_create_on), and there "
+                                          "is none here; name a shape or a file"));
+    if (nodes <= most)
+        return OST_SUCCESS;
+    return OST_RAISE(c->ctx, OST_LIMIT_EXCEEDED,
+                     "%s: %s%lld nodes have three unknowns each; Epetra and ML number at most 2^31 - 1 over all ranks, "
+                     "which is %lld nodes: use a coarser mesh",
+                     c->path, nodes == OST_PLAN_MOST ? "more than " : "", (long long)nodes, (long long)most);
+}
+
+int ost_plan_acts(const OstCase *c, const OstPlan *plan)
+{
+    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
+           ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN);
 }

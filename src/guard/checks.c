@@ -131,9 +131,16 @@ static void take_link_forces(const LinkForces *of, OstLocal node, const double o
 
 /* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
  * there is none): they count in the sizes that imbalances are relative to. */
+/* Forces on the owned nodes: internal ones, with the sums of their absolute values; of the eigenstrain, or NULL. */
+typedef struct NodeForces {
+    double *internal, *magnitude, *eigen;
+} NodeForces;
+
 static void add_node(OstResult *result, const Body *body, const LinkForces *links, OstLocal node,
-                     const double *internal, const double *eigen, const double *magnitude, double *sums)
+                     const NodeForces *of_nodes, double *sums)
 {
+    const double *internal = of_nodes->internal + 3 * (size_t)node, *magnitude = of_nodes->magnitude + 3 * (size_t)node;
+    const double *eigen = of_nodes->eigen ? of_nodes->eigen + 3 * (size_t)node : NULL;
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
@@ -464,19 +471,57 @@ static OstStatus find_volume_ratio(const OstProblem *problem, OstResult *result)
     return OST_SUCCESS;
 }
 
+/* Takes the internal forces of the result, if it has them. */
+static OstStatus find_forces(const OstProblem *problem, OstResult *result, NodeForces *of_nodes)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t count = 3 * (size_t)problem->mesh->owned_nodes;
+    const int is_summed = result->internal != NULL;
+    *of_nodes = (NodeForces){.internal = result->internal};
+    result->internal = NULL;
+    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &of_nodes->internal, count);
+    OST_THEN(OST_NEW(ctx, &of_nodes->magnitude, count));
+    OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, result->t, result->displacement,
+                                   is_summed ? NULL : of_nodes->internal, of_nodes->magnitude));
+    if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
+        status = OST_NEW(ctx, &of_nodes->eigen, count);
+        OST_THEN(ost_eigenstrain_force(problem->mesh, problem->field, result->t, of_nodes->eigen));
+    }
+    return ost_agree(ctx, status);
+}
+
+static OstStatus look_at_tets(const OstProblem *problem, TetSums *tets, OstResult *result)
+{
+    OstChecks *checks = &result->checks;
+    const int turns = problem->formulation != OST_FORMULATION_LINEAR;
+    ost_visit_means_of(problem->mesh, problem->field, problem->formulation, result->t, result->displacement, add_tets,
+                       tets);
+    OST_TRY(ost_linearity_agree(problem->ctx, problem->supports, result->displacement, &tets->largest));
+    if (turns) {
+        OST_TRY(ost_problem_worst_tet(problem, result->displacement, &result->worst));
+        OST_TRY(find_volume_ratio(problem, result));
+    }
+    checks->largest_strain = tets->largest.strain;
+    checks->largest_rotation = tets->largest.rotation;
+    checks->stiffening = NAN; /* not looked at */
+    if (result->newton.judged && !turns)
+        checks->stiffening = result->newton.linear_stiffening;
+    else if (!turns && !ost_field_is_eigenstrained(problem->field))
+        checks->stiffening = ost_linearity_stiffening(&tets->largest);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_guard_after(const OstProblem *problem, double requested, const OstSolvedFor *solved_for,
                           OstMeansVisit also, OstResult *result)
 {
     OstContext *ctx = problem->ctx;
-    const OstMesh *mesh = problem->mesh;
     OstChecks *checks = &result->checks;
-    double *internal = result->internal, *magnitude = NULL, *eigen = NULL;
-    const int is_summed = internal != NULL;
     double sums[SUM_COUNT] = {0.0};
     OstVolumeError volume;
+    NodeForces of_nodes;
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.result = result, .also = also, .formulation = problem->formulation};
-    if (is_summed && result->newton.judged) { /* of this displacement too, and not of all on a path */
+    if (result->internal && result->newton.judged) { /* of this displacement too, and not of all on a path */
         tets.is_judged = 1;
         tets.largest =
             (OstLinearity){.strain = result->newton.linear_strain, .rotation = result->newton.linear_rotation};
@@ -487,43 +532,23 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
-    result->internal = NULL;
-    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &internal, 3 * (size_t)mesh->owned_nodes);
-    OST_THEN(OST_NEW(ctx, &magnitude, 3 * (size_t)mesh->owned_nodes));
-    OST_THEN(ost_internal_force_of(mesh, problem->field, problem->formulation, result->t, result->displacement,
-                                   is_summed ? NULL : internal, magnitude));
-    if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
-        status = OST_NEW(ctx, &eigen, 3 * (size_t)mesh->owned_nodes);
-        OST_THEN(ost_eigenstrain_force(mesh, problem->field, result->t, eigen));
-    }
-    OST_TRY_DONE(ost_agree(ctx, status));
-    OST_TRY_DONE(look_at_body(problem, result, &body));
-    ost_visit_means_of(mesh, problem->field, problem->formulation, result->t, result->displacement, add_tets, &tets);
+    OstStatus status = find_forces(problem, result, &of_nodes);
+    OST_THEN(look_at_body(problem, result, &body));
+    OST_THEN(look_at_tets(problem, &tets, result));
+    if (status != OST_SUCCESS)
+        goto done;
     sums[SUM_ENERGY] = tets.energy;
     sums[SUM_DOUBLE_WORK] = -tets.eigen;
     sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
-    OST_TRY_DONE(find_link_forces(result, internal, &links));
-    OST_TRY_DONE(ost_linearity_agree(ctx, problem->supports, result->displacement, &tets.largest));
-    if (body.turns) {
-        OST_TRY_DONE(ost_problem_worst_tet(problem, result->displacement, &result->worst));
-        OST_TRY_DONE(find_volume_ratio(problem, result));
-    }
-    checks->largest_strain = tets.largest.strain;
-    checks->largest_rotation = tets.largest.rotation;
-    checks->stiffening = NAN; /* not looked at */
-    if (result->newton.judged && !body.turns)
-        checks->stiffening = result->newton.linear_stiffening;
-    else if (!body.turns && !ost_field_is_eigenstrained(problem->field))
-        checks->stiffening = ost_linearity_stiffening(&tets.largest);
-    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
-        add_node(result, &body, &links, n, internal + 3 * (size_t)n, eigen ? eigen + 3 * (size_t)n : NULL,
-                 magnitude + 3 * (size_t)n, sums);
+    OST_TRY_DONE(find_link_forces(result, of_nodes.internal, &links));
+    for (OstLocal n = 0; n < problem->mesh->owned_nodes; n++)
+        add_node(result, &body, &links, n, &of_nodes, sums);
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_guard_volume_error(problem, result, &volume));
     sums[SUM_RESIDUAL] += volume.force;
-    OST_TRY_DONE(ost_halo_import(mesh->halo, 3 * sizeof(double), result->reaction));
+    OST_TRY_DONE(ost_halo_import(problem->mesh->halo, 3 * sizeof(double), result->reaction));
     fill_checks(checks, sums, solved_for->norm);
     if (solved_for->errors.known)
         state_errors(result, &solved_for->errors);
@@ -533,10 +558,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     if (checks->finite && !result->unfinished)
         OST_TRY_DONE(judge_errors(result, &body, &solved_for->errors, sums, requested));
 done:
-    OST_FREE(internal);
-    OST_FREE(magnitude);
-    OST_FREE(eigen);
-    OST_FREE(links.at_leaders);
+    OST_FREE(of_nodes.internal, of_nodes.magnitude, of_nodes.eigen, links.at_leaders);
     ost_ledger_leave(ctx);
     return status;
 }
