@@ -65,7 +65,7 @@ static const double rounding_steps = 4.0;
 static const double balance_tolerance = 1e-10;
 
 /* Fields that are lost with the reactions, and with the stresses. */
-static const unsigned reactions = 1U << OST_FIELD_REACTION;
+static const unsigned forces = 1U << OST_FIELD_REACTION;
 static const unsigned stresses =
     1U << OST_FIELD_STRESS | 1U << OST_FIELD_NODE_STRESS | 1U << OST_FIELD_STRAIN | 1U << OST_FIELD_ENERGY;
 
@@ -137,10 +137,10 @@ typedef struct NodeForces {
 } NodeForces;
 
 static void add_node(OstResult *result, const Body *body, const LinkForces *links, OstLocal node,
-                     const NodeForces *forces, double *sums)
+                     const NodeForces *of_nodes, double *sums)
 {
-    const double *internal = forces->internal + 3 * (size_t)node, *magnitude = forces->magnitude + 3 * (size_t)node;
-    const double *eigen = forces->eigen ? forces->eigen + 3 * (size_t)node : NULL;
+    const double *internal = of_nodes->internal + 3 * (size_t)node, *magnitude = of_nodes->magnitude + 3 * (size_t)node;
+    const double *eigen = of_nodes->eigen ? of_nodes->eigen + 3 * (size_t)node : NULL;
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
@@ -359,7 +359,7 @@ static int loses_the_forces(const OstResult *result, const OstErrors *errors, co
     if (!(sqrt(sums[SUM_FREE_LOAD]) > rounding_steps * DBL_EPSILON * sums[SUM_FORCE_TERMS]))
         return 0;
     if (errors->known) {
-        error = fmax(error, asks_for(result, reactions) ? errors->reaction : 0.0);
+        error = fmax(error, asks_for(result, forces) ? errors->reaction : 0.0);
         error = fmax(error, asks_for(result, stresses) ? errors->stress : 0.0);
     } else if (ratio_to_deformation(sums) > moves_as_a_whole) {
         const double unstated = sums[SUM_RESIDUAL] > sums[SUM_FREE_LOAD] ? INFINITY : 0.0;
@@ -472,20 +472,20 @@ static OstStatus find_volume_ratio(const OstProblem *problem, OstResult *result)
 }
 
 /* Takes the internal forces of the result, if it has them. */
-static OstStatus find_forces(const OstProblem *problem, OstResult *result, NodeForces *forces)
+static OstStatus find_forces(const OstProblem *problem, OstResult *result, NodeForces *of_nodes)
 {
     OstContext *ctx = problem->ctx;
     const size_t count = 3 * (size_t)problem->mesh->owned_nodes;
     const int is_summed = result->internal != NULL;
-    *forces = (NodeForces){.internal = result->internal};
+    *of_nodes = (NodeForces){.internal = result->internal};
     result->internal = NULL;
-    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &forces->internal, count);
-    OST_THEN(OST_NEW(ctx, &forces->magnitude, count));
+    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &of_nodes->internal, count);
+    OST_THEN(OST_NEW(ctx, &of_nodes->magnitude, count));
     OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, result->t, result->displacement,
-                                   is_summed ? NULL : forces->internal, forces->magnitude));
+                                   is_summed ? NULL : of_nodes->internal, of_nodes->magnitude));
     if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {
-        status = OST_NEW(ctx, &forces->eigen, count);
-        OST_THEN(ost_eigenstrain_force(problem->mesh, problem->field, result->t, forces->eigen));
+        status = OST_NEW(ctx, &of_nodes->eigen, count);
+        OST_THEN(ost_eigenstrain_force(problem->mesh, problem->field, result->t, of_nodes->eigen));
     }
     return ost_agree(ctx, status);
 }
@@ -518,7 +518,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     OstChecks *checks = &result->checks;
     double sums[SUM_COUNT] = {0.0};
     OstVolumeError volume;
-    NodeForces forces;
+    NodeForces of_nodes;
     Body body = {.supports = problem->supports, .turns = problem->formulation != OST_FORMULATION_LINEAR};
     TetSums tets = {.result = result, .also = also, .formulation = problem->formulation};
     if (result->internal && result->newton.judged) { /* of this displacement too, and not of all on a path */
@@ -532,7 +532,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
         requested = fmax(requested, result->solve.relative_residual);
     checks->linear = ost_problem_is_linear(problem);
     ost_ledger_enter(ctx, OST_LEDGER_CHECKS);
-    OstStatus status = find_forces(problem, result, &forces);
+    OstStatus status = find_forces(problem, result, &of_nodes);
     OST_THEN(look_at_body(problem, result, &body));
     OST_THEN(look_at_tets(problem, &tets, result));
     if (status != OST_SUCCESS)
@@ -542,9 +542,9 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
-    OST_TRY_DONE(find_link_forces(result, forces.internal, &links));
+    OST_TRY_DONE(find_link_forces(result, of_nodes.internal, &links));
     for (OstLocal n = 0; n < problem->mesh->owned_nodes; n++)
-        add_node(result, &body, &links, n, &forces, sums);
+        add_node(result, &body, &links, n, &of_nodes, sums);
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_guard_volume_error(problem, result, &volume));
     sums[SUM_RESIDUAL] += volume.force;
@@ -558,7 +558,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     if (checks->finite && !result->unfinished)
         OST_TRY_DONE(judge_errors(result, &body, &solved_for->errors, sums, requested));
 done:
-    OST_FREE(forces.internal, forces.magnitude, forces.eigen, links.at_leaders);
+    OST_FREE(of_nodes.internal, of_nodes.magnitude, of_nodes.eigen, links.at_leaders);
     ost_ledger_leave(ctx);
     return status;
 }

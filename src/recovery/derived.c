@@ -63,7 +63,7 @@ static void axes_now(const OstResult *result, OstLocal tet, double axes[9])
         ost_apply3(result->rotation + 9 * (size_t)tet, before + 3 * k, axes + 3 * k);
 }
 
-static void along_material(const OstResult *result, OstLocal tet, const double stress[6], double own[6])
+void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6])
 {
     double axes[9];
     axes_now(result, tet, axes);
@@ -77,7 +77,7 @@ OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double
     if (measure <= OST_STRESS_MEASURE_ZX)
         *value = stress[measure];
     else if (measure <= OST_STRESS_MEASURE_31) {
-        along_material(result, tet, stress, several);
+        ost_result_material_stress(result, tet, stress, several);
         *value = several[measure - OST_STRESS_MEASURE_11];
     } else if (measure == OST_STRESS_MEASURE_VON_MISES)
         *value = ost_von_mises(stress);
@@ -100,7 +100,7 @@ double ost_result_load_factor(const OstResult *result, OstLocal tet, OstCriterio
     double own[6];
     if (!strength_of(result, tet)->known)
         return OST_MOST_LOAD_FACTOR;
-    along_material(result, tet, stress, own);
+    ost_result_material_stress(result, tet, stress, own);
     return ost_load_factor(strength_of(result, tet), criterion, own);
 }
 
@@ -133,7 +133,7 @@ static OstStatus derive(const OstResult *result, OstLocal tet, OstOutputFieldBit
     double strain[6], axes[9];
     switch (field) {
     case OST_FIELD_MATERIAL_STRESS:
-        along_material(result, tet, stress, value);
+        ost_result_material_stress(result, tet, stress, value);
         break;
     case OST_FIELD_MATERIAL_STRAIN:
         ost_field_axes(result->field, tet, axes);

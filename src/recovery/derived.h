@@ -14,6 +14,9 @@ int ost_result_can_derive(const OstResult *result, OstOutputFieldBit field);
  * material axes of a stress are those that have turned with the tet; those of a strain have not. */
 OstStatus ost_result_derive(const OstResult *result, OstOutputFieldBit field, double *values);
 
+/* Local. A stress of a tet, in world axes, along its material axes. */
+void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6]);
+
 /* Local. A number that is made of a stress of a tet, in world axes. */
 OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,
                              double *value);
