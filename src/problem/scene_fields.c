@@ -16,7 +16,7 @@
  * always, as their mean is no frame. */
 static unsigned use_of(const OstCase *c, const OstCaseField *asked, const OstMeshChunk *chunk)
 {
-    const int quadratic = c->order == 2 || (c->order == 0 && chunk->nodes_per_tet == 10);
+    const int quadratic = c->order == 2 || (c->order == 0 && (chunk->nodes_per_tet == 10 || c->asks_error));
     if (asked->use == OST_CASE_FIELD_OF_DIRECTIONS)
         return OST_FIELD_OF_DIRECTIONS | (quadratic ? OST_FIELD_AT_VERTICES : 0U);
     return asked->use == OST_CASE_FIELD_OF_AXES ? OST_FIELD_AT_VERTICES : OST_FIELD_OF_NUMBERS;
@@ -60,20 +60,22 @@ static OstStatus raise_for_tet(const OstScene *scene, OstPlace place, const char
 
 /* --- axes --- */
 
-/* The numbers of a tet, of which there must be `width`. */
-static OstStatus numbers_of(const OstScene *scene, const char *name, OstLocal tet, int width, const double **numbers)
-{
-    int found = 0;
-    *numbers = field_of(scene->c, scene->mesh, name, tet, &found);
-    if (*numbers && found == width)
-        return OST_SUCCESS;
-    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "it has %d numbers a tet, expected %d", found, width);
-}
-
 static int is_at_vertices(const OstScene *scene, const char *name)
 {
     const int field = name && scene->mesh->tet_field ? ost_case_find_field(scene->c, name) : -1;
     return field >= 0 && field < scene->mesh->fields.count && scene->mesh->fields.at_vertices[field];
+}
+
+/* The numbers of a tet, or of its vertices one after the other, of which there must be `width` each. */
+static OstStatus numbers_of(const OstScene *scene, const char *name, OstLocal tet, int width, const double **numbers)
+{
+    const int places = is_at_vertices(scene, name) ? 4 : 1;
+    int found = 0;
+    *numbers = ost_scene_tet_field(scene->c, scene->mesh, name, tet, &found);
+    if (*numbers && found == places * width)
+        return OST_SUCCESS;
+    return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "it has %d numbers a %s, expected %d", found / places,
+                     places > 1 ? "vertex" : "tet", width);
 }
 
 int ost_scene_field_varies(const OstScene *scene, const OstAxesSpec *spec)
@@ -100,7 +102,7 @@ static OstStatus directions_of(const OstScene *scene, const char *name, OstLocal
 {
     const int at_vertices = is_at_vertices(scene, name);
     const double *numbers = NULL;
-    OST_TRY(numbers_of(scene, name, tet, at_vertices ? 4 * width : width, &numbers));
+    OST_TRY(numbers_of(scene, name, tet, width, &numbers));
     for (int v = 0; v < 4; v++) {
         double axes[9];
         memcpy(axes, numbers + (at_vertices ? width * v : 0), (size_t)width * sizeof *axes);
