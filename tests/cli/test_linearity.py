@@ -59,6 +59,7 @@ def main():
     free_expansion(folder)
     tension(folder)
     column(folder)
+    classical(folder)
     floating(folder)
 
 
@@ -175,6 +176,17 @@ def floating(folder):
         "total_force: FORCE", "distributing: {at: [4, 0.5, 0.5], displacement: [0.1, 0.1, free]}"))
     finished = run("solve", "moved.yaml", folder=folder)
     check("stiffer as it turns" in finished.output and "large_rotation: on" not in finished.output, finished.output)
+
+
+def classical(folder):
+    """Its iterations converge linearly, and here after short load steps alone: it ends, and says what to do."""
+    text = CASE.replace("[8, 2, 2]", "[4, 1, 1]").replace("WORD", "on\nformulation: classical").replace("loads:\n", "").replace(
+        "total_force: FORCE", "displacement: [0, 0, 2]").replace(
+        "1e6, poissons_ratio: 0.3", "[1e5, 1e3, 1e3], poissons_ratio: 0.49, axes: {rotation: {axis: [0, 1, 0], degrees: 45}}")
+    write(folder, "classical.yaml", text)
+    finished = run("solve", "classical.yaml", folder=folder)
+    check(finished.exit_code == 1 and "by the classical formulation only load steps as short as" in finished.errors and
+          "leave out 'formulation'" in finished.errors, finished.errors)
 
 
 main()
