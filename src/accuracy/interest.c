@@ -71,7 +71,7 @@ static void keep_reaction(const OstSupports *supports, const double *u, OstLocal
         force[i] -= (supports->links ? 0.0 : free_force[i]) + of_spring[i];
 }
 
-/* The nodes of a reaction, and which components of what acts there others bear too (ost_select_shared). */
+/* The nodes of a reaction, and which components of what acts there others bear, too or alone (ost_select_shared). */
 typedef struct Borne {
     OstLocal count, *nodes;
     unsigned char *shared;
@@ -114,8 +114,9 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
             of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
         keep_reaction(problem->supports, u, nodes[n], of_node);
         for (int i = 0; i < 3; i++) {
-            in_doubt[i] = borne->shared[nodes[n]] >> i & 1 ? 0.5 * of_node[i] : 0.0;
-            of_node[i] -= in_doubt[i];
+            const double share = ost_select_share(borne->shared[nodes[n]], i);
+            of_node[i] *= share;
+            in_doubt[i] = share < 1.0 ? of_node[i] : 0.0;
         }
         ost_cross3(arm, of_node, moment);
         ost_cross3(arm, in_doubt, moment_in_doubt);
@@ -157,7 +158,7 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
         if (watch->of_moment)
             ost_cross3(direction, arm, moved);
         for (int i = 0; i < 3; i++)
-            moved[i] *= borne.shared[nodes[n]] >> i & 1 ? 0.5 : 1.0;
+            moved[i] *= ost_select_share(borne.shared[nodes[n]], i);
         if (interest->load && nodes[n] < problem->mesh->owned_nodes) { /* arms grow with the displacement */
             double force[3];
             memcpy(force, interest->load + 3 * (size_t)nodes[n], sizeof force);

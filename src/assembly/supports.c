@@ -218,7 +218,8 @@ unsigned char ost_supports_held(const OstSupports *supports, OstLocal node)
     find_support(supports, node, projector, NULL);
     for (size_t i = 0; i < 3; i++) {
         const double spring = supports->spring ? supports->spring[9 * (size_t)node + 4 * i] : 0.0;
-        held |= (projector[4 * i] < 1.0 - nothing || spring > 0.0 ? 1U : 0U) << i;
+        const unsigned constrained = projector[4 * i] < 1.0 - nothing ? 1U : 0U;
+        held |= constrained << (3 + i) | (constrained || spring > 0.0 ? 1U : 0U) << i;
     }
     return (unsigned char)held;
 }

@@ -9,10 +9,17 @@
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
 /* Collective. Which nodes of a selection other supports hold too, along x, y and z (bits 1, 2, 4): those at an edge of
- * its faces behind which faces of the surface are held that are not selected. What acts there is borne by both. `held`
- * and `*shared` (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
+ * its faces behind which faces of the surface are held that are not selected. What acts there is borne by both; or
+ * (bits 8, 16, 32) by those alone, as the selection's faces have springs and they constraints. `held` and `*shared`
+ * (memory from the context): a byte for each local node, the former as ost_supports_held has it. */
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared);
+
+/* Local. The share that a selection bears of what acts on a node along x, y or z (0, 1, 2): 0, a half or 1. */
+static inline double ost_select_share(unsigned shared, int axis)
+{
+    return shared >> (3 + axis) & 1U ? 0.0 : shared >> axis & 1U ? 0.5 : 1.0;
+}
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */
 int ost_selection_names(const OstSelection *selection, const char *boundary);

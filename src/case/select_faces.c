@@ -157,29 +157,35 @@ done:
 
 /* --- nodes that two supports hold --- */
 
-/* Of nodes, beside bits for x, y and z. */
-enum { SELECTED = 8, HAS_FACE = 16, ALONG = 7 };
+/* Flags of a node: along what faces that are not of the selection hold it, as `held`; the same of the selection's; is
+ * it of the selection, and has it faces there? */
+enum { HELD = 63, OWN_SHIFT = 6, CONSTRAINED_SHIFT = 3, ALONG = 7, SELECTED = 1 << 12, HAS_FACE = 1 << 13 };
 
-/* Faces between selected nodes are those of the selection. Others between nodes `in` one support (NULL: not asked)
- * leave bits at their nodes for what all of these are held along. */
+/* Looks at faces of the selection, which are those between selected nodes, and at others between nodes `in` one support
+ * (NULL: not asked). A face holds its nodes along what all of these are held; vertices of quadratic ones have no
+ * spring.
+ */
 static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held,
-                          unsigned char *flags)
+                          unsigned short *flags)
 {
+    const int count = surface->nodes_per_face, first = count == 6 ? 3 : 0;
     for (OstLocal f = 0; f < surface->count; f++) {
-        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
-        unsigned along = ALONG, selected = SELECTED;
-        for (int k = 0; k < surface->nodes_per_face; k++) {
-            along &= in && in[node[k]] ? held[node[k]] : 0U;
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)count;
+        unsigned along = HELD, selected = SELECTED;
+        int supported = in != NULL;
+        for (int k = 0; k < count; k++) {
+            along &= k >= first ? held[node[k]] : HELD;
+            supported = supported && in[node[k]];
             selected &= flags[node[k]];
         }
-        for (int k = 0; k < surface->nodes_per_face; k++)
-            flags[node[k]] |= (unsigned char)(selected ? HAS_FACE : along);
+        for (int k = 0; k < count; k++)
+            flags[node[k]] |= (unsigned short)(selected ? HAS_FACE | along << OWN_SHIFT : supported ? along : 0U);
     }
 }
 
 /* Boundaries one by one: sides of a body one tet thick lie between two of them. */
 static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                                 const OstSelection *on, const unsigned char *held, unsigned char *flags)
+                                 const OstSelection *on, const unsigned char *held, unsigned short *flags)
 {
     unsigned char *in = NULL;
     if (on->kind != OST_SELECT_BOUNDARY) {
@@ -202,23 +208,38 @@ static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const Os
     return OST_SUCCESS;
 }
 
+/* A spring does not act on a node that is constrained: the constraint has all of it. */
+static unsigned char shared_of(unsigned flags, unsigned held)
+{
+    if ((flags & (SELECTED | HAS_FACE)) != (SELECTED | HAS_FACE))
+        return 0;
+    const unsigned own = flags >> OWN_SHIFT & HELD, constrained = own >> CONSTRAINED_SHIFT;
+    const unsigned by_others = flags >> CONSTRAINED_SHIFT & ALONG;
+    const unsigned none = by_others & own & ~constrained, all = constrained & ~by_others;
+    return (unsigned char)((flags & held & ALONG & ~none & ~all) | none << CONSTRAINED_SHIFT);
+}
+
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared)
 {
     const OstSurface *surface;
+    unsigned short *flags = NULL;
     OST_TRY(ost_mesh_surface(mesh, &surface));
-    OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, shared, mesh->node_count));
+    OstStatus status = OST_NEW(mesh->ctx, shared, mesh->node_count);
+    OST_THEN(OST_NEW(mesh->ctx, &flags, mesh->node_count));
+    status = ost_agree(mesh->ctx, status);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
-        (*shared)[nodes[n]] = SELECTED;
+        flags[nodes[n]] = SELECTED;
     if (status == OST_SUCCESS)
-        look_at_faces(surface, NULL, held, *shared);
+        look_at_faces(surface, NULL, held, flags);
     for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
         if (!ost_constraint_links(&c->constraints[k]))
-            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, *shared);
+            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, flags);
     for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
-        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, *shared);
+        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, flags);
     for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
-        (*shared)[n] = (*shared)[n] >= (SELECTED | HAS_FACE) ? (*shared)[n] & ALONG & held[n] : 0;
+        (*shared)[n] = shared_of(flags[n], held[n]);
+    OST_FREE(flags);
     OST_THEN(ost_halo_import(mesh->halo, 1, *shared));
     return status;
 }

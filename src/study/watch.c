@@ -50,7 +50,7 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
 }
 
 /* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. Of components
- * that are `shared` (ost_select_shared) others bear half. */
+ * that are `shared` (ost_select_shared) others bear half or all. */
 static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, unsigned shared, double sum[3])
 {
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
@@ -59,7 +59,7 @@ static void add_reaction(const OstResult *result, const OstWatch *watch, OstLoca
     double arm[3], force[3], moment[3];
     for (int i = 0; i < 3; i++) {
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
-        force[i] = (shared >> i & 1 ? 0.5 : 1.0) * result->reaction[3 * (size_t)node + (size_t)i];
+        force[i] = ost_select_share(shared, i) * result->reaction[3 * (size_t)node + (size_t)i];
     }
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
