@@ -71,7 +71,7 @@ static OstStatus numbers_of(const OstScene *scene, const char *name, OstLocal te
 {
     const int places = is_at_vertices(scene, name) ? 4 : 1;
     int found = 0;
-    *numbers = ost_scene_tet_field(scene->c, scene->mesh, name, tet, &found);
+    *numbers = field_of(scene->c, scene->mesh, name, tet, &found);
     if (*numbers && found == places * width)
         return OST_SUCCESS;
     return OST_RAISE(scene->ctx, OST_INVALID_INPUT, "it has %d numbers a %s, expected %d", found / places,
