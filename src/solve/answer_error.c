@@ -68,7 +68,8 @@ static int watches_varying_axes(const OstProblem *problem)
         any |= ost_watch_is_linear_mean(watch) && watch->component >= (int)OST_STRESS_MEASURE_11 &&
                watch->component <= (int)OST_STRESS_MEASURE_31;
     }
-    return any && problem->mesh->nodes_per_tet == 10 && problem->field->region_formula;
+    return any && problem->mesh->nodes_per_tet == 10 &&
+           (problem->field->region_formula || problem->field->tet_directions);
 }
 
 OstStatus ost_result_allow_error(const OstProblem *problem, OstResult *result)
