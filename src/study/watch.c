@@ -234,8 +234,6 @@ static OstStatus evaluate(const OstScene *scene, const OstResult *result, const 
     case OST_WATCH_STRAIN_ENERGY:
         watched->value = result->checks.strain_energy;
         watched->error = energy_error(scene, result);
-        if (watched->error < -watched->value) /* no energy is below 0 */
-            watched->error = -watched->value;
         return ost_energy_scale(result, &watched->scale);
     case OST_WATCH_STRESS:
     case OST_WATCH_LOAD_FACTOR:

@@ -141,7 +141,8 @@ constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: x
 watch: {energy: strain_energy}
 """)
     energy = report["watched"]["energy"]
-    check(report["answer_error"]["energy_norm"] ** 2 > 2 * energy["value"] and energy["error"] == -energy["value"], f"{energy}")
+    check(report["answer_error"]["energy_norm"] ** 2 > 2 * energy["value"] and energy["error"] is None and
+          "too coarse" in energy["error_not_known"], f"{energy}")
 
 
 def pressure_follows_no_surface_by_linear_theory():
