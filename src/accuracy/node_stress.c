@@ -54,13 +54,20 @@ static void gather_functions(const OstComplement *complement, const OstBatch *ba
     }
 }
 
+/* A node's share of the mean of a polynomial: of degree 1 by the vertices, of degree 2 by the middles of the edges too.
+ */
+static double share_of_mean(int nodes, int node)
+{
+    return nodes == 4 ? 0.25 : ost_tet10_share(node);
+}
+
 /* Where C is split, the stiff mode counts by its mean over the tet. */
 static void take_stress(const OstElasticity *at_nodes, int nodes, const OstSimd *strain, OstSimd *stress)
 {
     OstSimd mean = {0};
     for (int a = 0; a < nodes && at_nodes->by_mean; a++)
         for (int p = 0; p < 6; p++)
-            mean += at_nodes->m[ost_elasticity_at(at_nodes, a)][p] * strain[6 * a + p] / (double)nodes;
+            mean += share_of_mean(nodes, a) * at_nodes->m[ost_elasticity_at(at_nodes, a)][p] * strain[6 * a + p];
     for (int a = 0; a < nodes; a++) {
         const int at = ost_elasticity_at(at_nodes, a);
         ost_simd_stress(at_nodes->c[at], strain + 6 * a, stress + 6 * a);
@@ -154,12 +161,11 @@ static void find_added(Visit *visit, OstSimd *found)
     find_large(&visit->at_nodes, nodes, given, slope, visit->rotation, found);
 }
 
-/* Of a polynomial's values at the nodes: of degree 1 by the vertices, of degree 2 by the middles of the edges too. */
 static void add_mean(int nodes, const OstSimd *found, int slot, double mean[6])
 {
     for (int p = 0; p < 6; p++)
         for (int a = 0; a < nodes; a++)
-            mean[p] += (nodes == 4 ? 0.25 : ost_tet10_share(a)) * found[6 * a + p][slot];
+            mean[p] += share_of_mean(nodes, a) * found[6 * a + p][slot];
 }
 
 /* Of quadratic tets: turned back as each node has turned, then along the axes there. */

@@ -159,7 +159,19 @@ done:
 
 /* Of nodes, beside bits for x, y and z: along what faces of the selection are held, and others, by constraints (shift
  * 0) or by springs (shift 6). */
-enum { ALONG = 7, OWN = 0, OTHERS = 3, BY_SPRINGS = 6, SELECTED = 1 << 12, HAS_FACE = 1 << 13 };
+enum {
+    ALONG = 7,
+    OWN = 0,
+    OTHERS = 3,
+    BY_SPRINGS = 6,
+    SELECTED = 1 << 12,
+    HAS_FACE = 1 << 13,
+    IS_RIGID = 1 << 14,
+    IS_TIED = 1 << 15
+};
+
+/* What holds a face. */
+typedef enum { HELD_BY_CONSTRAINT, HELD_RIGID, HELD_BY_SPRINGS, HELD_BY_TIE } Holder;
 
 /* Faces between selected nodes are those of the selection. */
 static void look_at_selected(const OstSurface *surface, unsigned short *flags)
@@ -175,32 +187,34 @@ static void look_at_selected(const OstSurface *surface, unsigned short *flags)
 }
 
 /* Faces between nodes `in` one support leave bits at their nodes: of constraints for what all of these are `held`
- * along; of springs, which on quadratic tets act between vertices, for all directions. */
-static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held, int by_springs,
+ * along; of rigid faces, and of springs, which on quadratic tets act between vertices, for all directions. */
+static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held, Holder by,
                           unsigned short *flags)
 {
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
         unsigned along = ALONG, selected = SELECTED;
         for (int k = 0; k < surface->nodes_per_face; k++) {
-            along &= !in[node[k]] ? 0U : by_springs ? ALONG : held[node[k]];
+            along &= !in[node[k]] ? 0U : by == HELD_BY_CONSTRAINT ? held[node[k]] : ALONG;
             selected &= flags[node[k]];
         }
-        const int shift = (by_springs ? BY_SPRINGS : 0) + (selected ? OWN : OTHERS);
+        const int shift = (by == HELD_BY_SPRINGS ? BY_SPRINGS : 0) + (selected ? OWN : OTHERS);
+        unsigned bits = along << shift | (along && by == HELD_RIGID ? IS_RIGID : 0U);
+        if (by == HELD_BY_TIE)
+            bits = along && !selected ? IS_TIED : 0U;
         for (int k = 0; k < surface->nodes_per_face; k++)
-            flags[node[k]] |= (unsigned short)(along << shift);
+            flags[node[k]] |= (unsigned short)bits;
     }
 }
 
 /* Boundaries one by one: sides of a body one tet thick lie between two of them. */
 static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                                 const OstSelection *on, const unsigned char *held, int by_springs,
-                                 unsigned short *flags)
+                                 const OstSelection *on, const unsigned char *held, Holder by, unsigned short *flags)
 {
     unsigned char *in = NULL;
     if (on->kind != OST_SELECT_BOUNDARY) {
         OST_TRY(ost_select_flags(c, mesh, on, &in));
-        look_at_faces(surface, in, held, by_springs, flags);
+        look_at_faces(surface, in, held, by, flags);
         OST_FREE(in);
         return OST_SUCCESS;
     }
@@ -212,7 +226,7 @@ static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const Os
         memset(in, 0, (size_t)mesh->node_count);
         for (size_t n = 0; n < (size_t)boundary->count * (size_t)boundary->nodes_per_item; n++)
             in[boundary->nodes[n]] = 1;
-        look_at_faces(surface, in, held, by_springs, flags);
+        look_at_faces(surface, in, held, by, flags);
     }
     OST_FREE(in);
     return OST_SUCCESS;
@@ -224,13 +238,15 @@ static unsigned char borne_by_others(unsigned flags, unsigned held)
     unsigned half = 0, all = 0;
     if (!(flags & SELECTED) || !(flags & HAS_FACE))
         return 0;
+    const unsigned constrained = flags & IS_RIGID ? ALONG : held;
     for (unsigned i = 0; i < 3; i++) {
-        const unsigned by = held >> i & 1 ? flags : held >> (3 + i) & 1 ? flags >> BY_SPRINGS : 0;
+        const unsigned by = constrained >> i & 1 ? flags : held >> (3 + i) & 1 ? flags >> BY_SPRINGS : 0;
         const unsigned own = by >> (OWN + i) & 1, others = by >> (OTHERS + i) & 1;
         half |= (own & others) << i;
-        all |= (others & ~own) << i;
+        const unsigned is_tie_alone = flags & IS_TIED && !((constrained | held >> 3) >> i & 1);
+        all |= ((others & ~own) | is_tie_alone) << i;
     }
-    return (unsigned char)(half | all << 3);
+    return (unsigned char)(half | all << 3 | (flags & IS_TIED ? OST_SHARED_WITH_TIE : 0U));
 }
 
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
@@ -246,11 +262,18 @@ OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigne
         flags[nodes[n]] = SELECTED;
     if (status == OST_SUCCESS)
         look_at_selected(surface, flags);
-    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
-        if (!ost_constraint_links(&c->constraints[k]))
-            status = look_at_support(c, mesh, surface, &c->constraints[k].on, held, 0, flags);
+    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++) {
+        const OstConstraint *constraint = &c->constraints[k];
+        const Holder by = constraint->kind == OST_CONSTRAIN_RIGID ? HELD_RIGID : HELD_BY_CONSTRAINT;
+        if (by == HELD_RIGID || !ost_constraint_links(constraint))
+            status = look_at_support(c, mesh, surface, &constraint->on, held, by, flags);
+        if (constraint->kind == OST_CONSTRAIN_TIED && status == OST_SUCCESS) {
+            status = look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_TIE, flags);
+            OST_THEN(look_at_support(c, mesh, surface, &constraint->to, held, HELD_BY_TIE, flags));
+        }
+    }
     for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
-        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, 1, flags);
+        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, HELD_BY_SPRINGS, flags);
     for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
         (*shared)[n] = borne_by_others(flags[n], held[n]);
     OST_FREE(flags);

@@ -112,15 +112,19 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     unsigned char *shared = NULL;
     double sum[3] = {0.0};
     int does_act = 0;
+    watched->tied = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
     OstStatus status = ost_select_shared(scene->c, scene->mesh, result->held, count, nodes, &shared);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
-        if (nodes[n] < scene->mesh->owned_nodes)
+        if (nodes[n] < scene->mesh->owned_nodes) {
             add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
+            watched->tied |= (shared[nodes[n]] & OST_SHARED_WITH_TIE) != 0;
+        }
     OST_THEN(acts(result, watch, count, nodes, shared, &watched->terms, &does_act));
     OST_FREE(shared);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));
+    OST_THEN(ost_max_ints(ctx, 1, &watched->tied));
     OST_TRY(status);
     watched->value = component_of(sum, watch->component);
     watched->error = NAN;
@@ -192,8 +196,10 @@ static const char *why_no_energy(const OstScene *scene, const OstResult *result)
                                                        : "both loads and prescribed displacements act";
 }
 
-static const char *why_no_reaction(const OstScene *scene, const OstResult *result)
+static const char *why_no_reaction(const OstScene *scene, const OstResult *result, const OstWatched *watched)
 {
+    if (watched->tied)
+        return "a tie ends at its edge, and what it passes on there is part of the reaction";
     if (scene->c->free_body)
         return "a free body has none";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
@@ -202,7 +208,8 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 }
 
 /* Why there is no error, in words. */
-static const char *find_why(const OstScene *scene, const OstResult *result, const OstWatch *watch)
+static const char *find_why(const OstScene *scene, const OstResult *result, const OstWatch *watch,
+                            const OstWatched *watched)
 {
     if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE)) /* not asked for, or no room for it */
         return ost_plan_writes(scene->c, OST_FIELD_ERROR) ? "the error of the answer is not estimated" : NULL;
@@ -214,7 +221,7 @@ static const char *find_why(const OstScene *scene, const OstResult *result, cons
     case OST_WATCH_STRAIN_ENERGY:
         return why_no_energy(scene, result);
     case OST_WATCH_REACTION:
-        return why_no_reaction(scene, result);
+        return why_no_reaction(scene, result, watched);
     case OST_WATCH_STRESS:
         return "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
     case OST_WATCH_DISPLACEMENT:
@@ -266,7 +273,9 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
         watched->error = result->interest.error;
     if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || ost_watch_is_of_stress(watch)))
         watched->error = NAN;
-    watched->why = isnan(watched->error) ? find_why(scene, result, watch) : NULL;
+    if (watch->kind == OST_WATCH_REACTION && watched->tied && !watched->exact)
+        watched->error = NAN;
+    watched->why = isnan(watched->error) ? find_why(scene, result, watch, watched) : NULL;
     watched->exact = find_exact(watch, watched);
     return OST_SUCCESS;
 }

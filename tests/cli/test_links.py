@@ -221,6 +221,21 @@ def statics_alone_gives_reactions():
         check(known == set(exact), f"{known} are said to be exact, expected {exact}")
 
 
+def what_a_tie_passes_on_is_no_reaction():
+    """Beside its edge: nothing where nothing else is held, and no error is stated of a support that is."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (2, 2, 2), "b")])
+    text = TIED.replace("ORDER", "2").replace("LOAD", "total_force: [0, 0, 1]").replace("NU", "0.3").replace("watch:", """watch:
+  slid: {reaction: {boundary: a_zmin}, component: z}
+  free: {reaction: {boundary: a_ymax}, component: x}""")
+    for ranks in fewer((1, 2)):
+        finished, report, _ = solve(text, ranks=ranks, folder=folder)
+        check(finished.exit_code == 0, finished.errors)
+        slid, free = report["watched"]["slid"], report["watched"]["free"]
+        check(slid["error"] is None and "a tie ends at its edge" in slid["error_not_known"], f"{slid}")
+        check(free["value"] == free["error"] == 0, f"{free}")
+
+
 def a_tie_joins_what_coincides():
     """Vertices of two parts in the same places are no cause for a warning where a tie joins them; without it they are."""
     folder = new_folder()
@@ -351,6 +366,7 @@ an_incompressible_bar_follows_its_rigid_end()
 load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
+what_a_tie_passes_on_is_no_reaction()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()

@@ -217,6 +217,7 @@ watch:
 BEDDED = PLANES.split("constraints:")[0] + """constraints: [{on: {boundary: ymin}, displacement: [0, 0, 0]}]
 springs: [{on: {boundary: xmax}, foundation: 20}]
 loads: [{gravity: [0, 0, -1]}]
+large_rotation: off
 watch:
 """ + "".join(f"  {side}: {{reaction: {{boundary: {side}}}, component: z}}\n" for side in ("ymin", "xmax"))
 for ranks in fewer((1, 2)):
@@ -224,6 +225,9 @@ for ranks in fewer((1, 2)):
     check(abs(found["xmin"]["value"] + 1) < 1e-9 and found["ymin"]["value"] == found["zmin"]["value"] == 0, f"planes of symmetry: {found}")
     found, _ = watched(BEDDED, 2, "", ranks)
     check(abs(found["ymin"]["value"] + found["xmax"]["value"] - 1) < 1e-6, f"a clamped face beside a bed: {found}")
+    rigid, _ = watched(BEDDED.replace("displacement: [0, 0, 0]", "rigid: {at: [0, 0, 0], displacement: [0, 0, 0], rotation: [0, 0, 0]}"),
+                       2, "", ranks)
+    check(all(abs(rigid[key]["value"] - value["value"]) < 1e-6 for key, value in found.items()), f"held as a rigid face: {rigid}, {found}")
 
 # Means in a layer up to 1000 times stiffer, which has little of the energy: by few steps they were other ones on two ranks.
 brick_mesh(os.path.join(folder, "layers.msh"), [("b", (0, 0, 0), (1, 1, 1), (3, 3, 3), ("soft", "stiff", "soft"))])
