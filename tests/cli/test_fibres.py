@@ -266,10 +266,11 @@ for mesh in fewer(["file: turning.msh", "file: turning.msh, refine: 1"]):
     for axes, ranks in fewer([("{field: {e1: radial, e2: tangential}}", 1), ("{field: frame}", 3)]):
         same(answer(text(STIFF_AROUND + axes, mesh, 2, TURNED_HELD), ranks), expected, f"{axes} at vertices, {mesh}", 0.01)
 adapted = text(ABOUT_LINE, "file: turning.msh", 2, TURNED_HELD).replace("relative_residual: 1e-11", "relative_error: 0.1")
-expected = answer(adapted)
-same(answer(adapted.replace(ABOUT_LINE, STIFF_AROUND + "{field: {e1: radial, e2: tangential}}"), 2), expected, "where an accuracy is asked for", 0.01)
-same(answer(text(STIFF_AROUND + "{field: frame}", "file: turning.msh", 1, TURNED_HELD)),
-     answer(text(ABOUT_LINE, "file: turning.msh", 1, TURNED_HELD)), "of linear tets their mean", 0.02)
+if not SANITIZED:  # numbers alone
+    expected = answer(adapted)
+    same(answer(adapted.replace(ABOUT_LINE, STIFF_AROUND + "{field: {e1: radial, e2: tangential}}"), 2), expected, "where an accuracy is asked for", 0.01)
+    same(answer(text(STIFF_AROUND + "{field: frame}", "file: turning.msh", 1, TURNED_HELD)),
+         answer(text(ABOUT_LINE, "file: turning.msh", 1, TURNED_HELD)), "of linear tets their mean", 0.02)
 
 # A result of its own as the mesh: its displacements, on points, as fibres; in a .vtkhdf file ranks' pieces share points.
 write(folder, "bent.yaml", text("youngs_modulus: 1000, poissons_ratio: 0.3", TWO_CUBES, 2))

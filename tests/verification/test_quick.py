@@ -28,9 +28,9 @@ def fails_when(folder, name, old, new):
 
 
 def some_coarse_meshes_pass():
-    finished = run("verify", "--quick", "axial-pull", "cylinder-nu-5", "given-displacement", "hanging-bar", "torsion-1-5", ranks=2)
+    finished = run("verify", "--quick", "axial-pull", "cylinder-nu-5", "given-displacement", ranks=2)
     check(finished.exit_code == 0, f"verify --quick: {finished.output[-4000:]}{finished.errors}")
-    check("5 of 5 cases pass" in finished.output, finished.output)
+    check("3 of 3 cases pass" in finished.output, finished.output)
 
 
 def mistakes_fail(folder):
