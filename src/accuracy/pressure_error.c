@@ -93,7 +93,8 @@ static void add_volume(const Part *part, double *volume)
     }
 }
 
-/* Takes off what is meant to be left of incompressible material. */
+/* Where an enclosed body's adjoint problem leaves a change of volume, evenly spread (OstState.swelling), that is no
+ * error of its pressure: it is taken off. */
 static void leave_swelling(const OstState *of, double *volume)
 {
     const OstProblem *problem = of->problem;

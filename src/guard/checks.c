@@ -129,13 +129,13 @@ static void take_link_forces(const LinkForces *of, OstLocal node, const double o
     }
 }
 
-/* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
- * there is none): they count in the sizes that imbalances are relative to. */
 /* Forces on the owned nodes: internal ones, with the sums of their absolute values; of the eigenstrain, or NULL. */
 typedef struct NodeForces {
     double *internal, *magnitude, *eigen;
 } NodeForces;
 
+/* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
+ * there is none): they count in the sizes that imbalances are relative to. */
 static void add_node(OstResult *result, const Body *body, const LinkForces *links, OstLocal node,
                      const NodeForces *of_nodes, double *sums)
 {
