@@ -222,7 +222,7 @@ static void mistakes_are_named_with_file_and_line(void **state)
         {"a.msh", "8 6 0\n0 0 0\n", "savemesh"},
         {"a.msh", "(0 \"grid written by GAMBIT\")\n", "meshio.ansys.read"},
         {"a.inp", "*NSET, NSET=A\nB\n", "'B' found, expected a number or the name of a set before"},
-        {"a.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: cannot be read"},
+        {"a.inp", "*INCLUDE, INPUT=none.inp\n", "a.inp:1: names a file that is to be read here: "},
         {"a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "a.mesh:2: dimension 2 found, expected 3"},
         {"a.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 3\n0 0 0 1\n", "a.mesh:5: the file ends"},
         {"a.mesh", "solid\n", "expected MeshVersionFormatted"},

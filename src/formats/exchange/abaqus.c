@@ -307,7 +307,11 @@ static OstStatus include(OstInp *inp, const char *name, int depth)
         return OST_RAISE_LINE(inp->lines,
                               name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
     join_path(outer->path, name, path);
-    OST_TRY(ost_lines_open(inp->ctx, path, &lines));
+    if (ost_lines_open(inp->ctx, path, &lines) != OST_SUCCESS) {
+        char reason[PATH_MAX + 128];
+        snprintf(reason, sizeof reason, "%s", ost_error_text(inp->ctx));
+        return OST_RAISE_LINE(inp->lines, "names a file that is to be read here: %s", reason);
+    }
     const OstStatus status = read_lines(inp, &lines, depth + 1);
     inp->lines = outer;
     ost_lines_close(&lines);

@@ -525,7 +525,11 @@ static OstStatus include(Nastran *nastran, const char *line, const char *end)
         return OST_RAISE_MSH(&nastran->cursor, "files include each other more than %d deep", MOST_INCLUDES);
     included_path(&nastran->cursor, line, end, path);
     const OstMshCursor outer = nastran->cursor;
-    OST_TRY(ost_msh_open(outer.ctx, path, &inner));
+    if (ost_msh_open(outer.ctx, path, &inner) != OST_SUCCESS) {
+        char reason[PATH_MAX + 128];
+        snprintf(reason, sizeof reason, "%s", ost_error_text(outer.ctx));
+        return OST_RAISE_MSH(&nastran->cursor, "names a file that is to be read here: %s", reason);
+    }
     nastran->cursor = inner;
     nastran->depth++;
     const OstStatus status = read_cards(nastran, &ended);
