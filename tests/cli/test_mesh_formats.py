@@ -68,6 +68,13 @@ for name, text, tets, regions in (
         ("deck.bdf", DECK, 1, ["volume-7"]), ("cards.bdf", CARDS, 1, ["volume-7"]),
         ("tabs.bdf", CARDS.replace(",", "\t"), 1, ["volume-7"]),
         ("meshio.bdf", CARDS.replace("1,7,", "1,,").replace("2,5,", "2,,"), 1, ["volume"]),
+        ("hypermesh.fem", f'$HMNAME PROP       7"soft wood" 4\n{CARDS}', 1, ["soft wood"]),
+        ("ansa.nas", f"$ANSA_NAME_COMMENT;7;PSOLID;wood;;NO;NO;\n{CARDS}", 1, ["wood"]),
+        ("ansa-old.nas", f"$ANSA_NAME;7;PSOLID;~\n$wood\n$bark\n{CARDS}", 1, ["wood"]),
+        ("femap.bdf", f"$ Femap with NX Nastran Property 7 : soft wood\n{CARDS}", 1, ["soft wood"]),
+        ("femap-old.bdf", f"$ FEMAP Property 7 : Untitled\n{CARDS}", 1, ["volume-7"]),
+        ("patran.bdf", "$ Elements and Element Properties for region : wood \nPARAM,POST,0\nPSOLID,7,1\nPSOLID,8,1\n" + CARDS, 1, ["wood"]),
+        ("simcenter.bdf", f"$*  Property: wood\nPSOLID,7,1\n{CARDS}", 1, ["wood"]),
         ("words.meshb", WORDS, 48, ["volume-1", "volume-2"]), ("binary.msh22", None, 48, ["left", "right"])):
     done = run("mesh", write(folder, name, text) if text else name, "--json", "-", folder=folder)
     check(done.exit_code == 0, f"{name}: {done.errors}")

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/cells/cells.h"
 #include "formats/exchange/exchange.h"
+#include "formats/exchange/nastran_names.h"
 #include "formats/exchange/nastran_systems.h"
 #include "formats/exchange/numbers.h"
 #include "formats/exchange/passed.h"
@@ -46,6 +47,7 @@ typedef struct Nastran {
     int depth;                /* of INCLUDE */
     OstGlobal default_system; /* of GRDSET */
     OstLocal in_default;      /* nodes that state none, so far */
+    OstNastranName property_name;
     OstPassed passed;
     int rigid_count;
     Rigid rigid[MOST_RIGID];
@@ -380,6 +382,29 @@ static OstStatus read_constraint(Nastran *nastran)
     return OST_SUCCESS;
 }
 
+static OstStatus read_comment(Nastran *nastran, const char *line, const char *end)
+{
+    OstNastranName *name = &nastran->property_name;
+    ost_nastran_take_comment(name, line, end);
+    if (name->property < 0 || !name->text[0])
+        return OST_SUCCESS;
+    const OstGlobal property = name->property;
+    name->property = OST_NASTRAN_NO_PROPERTY;
+    return ost_cells_name(&nastran->cells, -1, property, name->text);
+}
+
+/* PSOLID, PSHELL and the like: the comment before it may have named it. */
+static OstStatus read_property(Nastran *nastran)
+{
+    OstGlobal property = 0;
+    OstNastranName *name = &nastran->property_name;
+    if (name->property != OST_NASTRAN_NEXT_PROPERTY)
+        return OST_SUCCESS;
+    name->property = OST_NASTRAN_NO_PROPERTY;
+    OST_TRY(take_integer(nastran, "the number of a property", 0, &property));
+    return ost_cells_name(&nastran->cells, -1, property, name->text);
+}
+
 /* Counts an element that is not read, by the beginning of its name. */
 static void skip_element(Nastran *nastran)
 {
@@ -412,6 +437,8 @@ static OstStatus end_card(Nastran *nastran)
         return read_constraints(nastran);
     if (strcmp(name, "SPC") == 0)
         return read_constraint(nastran);
+    if (name[0] == 'P' && strcmp(name, "PARAM") != 0 && strncmp(name, "PLOAD", 5) != 0)
+        OST_TRY(read_property(nastran));
     skip_element(nastran);
     if (strcmp(name, "RBE2") == 0 || strcmp(name, "RBE3") == 0)
         OST_TRY(read_rigid(nastran, name[3] == '3'));
@@ -426,22 +453,6 @@ static void begin_card(Nastran *nastran, const char *line, const char *end)
     nastran->name[length] = '\0';
     nastran->fields = 0;
     nastran->line = line;
-}
-
-/* HyperMesh names properties in comments: $HMNAME PROP       11"wood" 4. */
-static OstStatus read_comment(Nastran *nastran, const char *line, const char *end)
-{
-    static const char word[] = "$HMNAME PROP";
-    char name[64];
-    OstGlobal property = 0;
-    const size_t begins = sizeof word - 1;
-    const char *quote = memchr(line, '"', (size_t)(end - line));
-    if ((size_t)(end - line) < begins || strncasecmp(line, word, begins) != 0 || !quote || quote < line + begins ||
-        !ost_fortran_integer(line + begins, (size_t)(quote - line) - begins, &property))
-        return OST_SUCCESS;
-    const char *close = memchr(quote + 1, '"', (size_t)(end - quote - 1));
-    snprintf(name, sizeof name, "%.*s", close ? (int)(close - quote - 1) & 63 : 0, quote + 1);
-    return name[0] ? ost_cells_name(&nastran->cells, -1, property, name) : OST_SUCCESS;
 }
 
 /* Where the data of a line end: at a comment, which begins with $ outside quotes, without the blanks before it. */
@@ -565,7 +576,7 @@ static OstStatus read_lines(Nastran *nastran)
 
 OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
-    Nastran nastran = {.line = NULL};
+    Nastran nastran = {.property_name = {.property = OST_NASTRAN_NO_PROPERTY}};
     OstStatus status = ost_cells_open(ctx, path, &nastran.cells);
     OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
     OST_THEN(read_lines(&nastran));
