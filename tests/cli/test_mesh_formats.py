@@ -68,7 +68,8 @@ for name, text, tets, regions in (
         ("deck.bdf", DECK, 1, ["volume-7"]), ("cards.bdf", CARDS, 1, ["volume-7"]),
         ("tabs.bdf", CARDS.replace(",", "\t"), 1, ["volume-7"]),
         ("meshio.bdf", CARDS.replace("1,7,", "1,,").replace("2,5,", "2,,"), 1, ["volume"]),
-        ("hypermesh.fem", f'$HMNAME PROP       7"soft wood" 4\n{CARDS}', 1, ["soft wood"]),
+        ("hypermesh.fem", f'$HMNAME PROP       7"soft wood" 4\n$HMSET 3 1 "held" 18\n$HMSETTYPE 3 "formula"\nSET,3,GRID,LIST\n+,1,THRU,3\n'
+                          f"SET     4       GRID\n+       2       3\nSET,5,ELEM,LIST\n+,1\n{CARDS}", 1, ["soft wood"]),
         ("ansa.nas", f"$ANSA_NAME_COMMENT;7;PSOLID;wood;;NO;NO;\n{CARDS}", 1, ["wood"]),
         ("ansa-old.nas", f"$ANSA_NAME;7;PSOLID;~\n$wood\n$bark\n{CARDS}", 1, ["wood"]),
         ("femap.bdf", f"$ Femap with NX Nastran Property 7 : soft wood\n{CARDS}", 1, ["soft wood"]),
@@ -80,6 +81,8 @@ for name, text, tets, regions in (
     check(done.exit_code == 0, f"{name}: {done.errors}")
     held = json.loads(done.output)
     check((held["tets"], [r["name"] for r in held["regions"]]) == (tets, regions), f"{name}: {held}")
+    boundaries = {b["name"] for b in held["boundaries"]}
+    check("hypermesh" not in name or boundaries == {"surface-5", "held", "set-4"}, f"{name}: {boundaries}")
 
 # Nodes in coordinate systems, each of another: at (10, 0, 0), and one along each axis from there.
 SYSTEMS = """CORD2C,2,1,,,,,,1.

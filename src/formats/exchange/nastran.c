@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/cells/cells.h"
 #include "formats/exchange/exchange.h"
+#include "formats/exchange/nastran_card.h"
 #include "formats/exchange/nastran_names.h"
 #include "formats/exchange/nastran_systems.h"
 #include "formats/exchange/numbers.h"
@@ -17,11 +18,9 @@
 #include <string.h>
 #include <strings.h>
 
-/* Nastran's bulk data: cards of a name and fields, in columns of 8 (small), of 16 (large: the name ends with *), or
- * between commas (free). A card goes on in lines that begin with +, * or blanks. Each property becomes a region or a
- * boundary, and so does each set of constraints. */
+/* Nastran's bulk data. Each property becomes a region or a boundary, and so does each set of nodes or constraints. */
 
-enum { FIELD = 33, NAME = 9, SMALL = 8, LARGE = 16, MOST_NODES = 20, MOST_INCLUDES = 8, MOST_RIGID = 100 };
+enum { MOST_NODES = 20, MOST_INCLUDES = 8, MOST_RIGID = 100 };
 
 typedef struct Placed {
     OstGlobal label, system;
@@ -35,146 +34,46 @@ typedef struct Rigid {
 } Rigid;
 
 typedef struct Nastran {
-    OstMshCursor cursor;
+    OstNastranCard card;
     OstCells cells;
-    char name[NAME]; /* of the present card, in capitals; "" before the first */
-    int fields;
-    char (*field)[FIELD];
-    const char *line; /* where the card begins */
     OstNastranSystems systems;
     OstLocal placed; /* nodes that wait for their coordinate system, which may stand behind them */
     Placed *place;
     int depth;                /* of INCLUDE */
     OstGlobal default_system; /* of GRDSET */
     OstLocal in_default;      /* nodes that state none, so far */
-    OstNastranName property_name;
+    OstNastranName comment_name;
     OstPassed passed;
     int rigid_count;
     Rigid rigid[MOST_RIGID];
 } Nastran;
 
-/* --- cards --- */
-
-static OstStatus add_field(Nastran *nastran, const char *text, size_t length)
-{
-    while (length > 0 && isspace((unsigned char)*text)) {
-        text++;
-        length--;
-    }
-    while (length > 0 && isspace((unsigned char)text[length - 1]))
-        length--;
-    if (length >= FIELD) { /* no number that is read; titles have such fields */
-        text = "(too long)";
-        length = strlen(text);
-    }
-    OST_TRY(OST_GROW(nastran->cursor.ctx, &nastran->field, nastran->fields + 1));
-    memcpy(nastran->field[nastran->fields], text, length);
-    nastran->field[nastran->fields++][length] = '\0';
-    return OST_SUCCESS;
-}
-
-/* Fields between commas, eight of a line, or four large ones; the one after them only names the continuation, and those
- * left out are blank. */
-static OstStatus free_fields(Nastran *nastran, const char *text, const char *end, int count)
-{
-    for (int f = 0; f < count; f++) {
-        const char *comma = memchr(text, ',', (size_t)(end - text));
-        const char *stop = comma ? comma : end;
-        OST_TRY(add_field(nastran, text, (size_t)(stop - text)));
-        text = comma ? comma + 1 : end;
-    }
-    return OST_SUCCESS;
-}
-
-/* Blank fields at the end of a line count: the next line begins with the ninth. */
-static OstStatus fixed_fields(Nastran *nastran, const char *text, const char *end, int width)
-{
-    for (int f = 0; f < 64 / width; f++) {
-        const ptrdiff_t left = end - text;
-        const ptrdiff_t length = left < 0 ? 0 : left < width ? left : width;
-        OST_TRY(add_field(nastran, text, (size_t)length));
-        text += length;
-    }
-    return OST_SUCCESS;
-}
-
-/* Columns count as if a tab went on to the next multiple of eight. */
-static OstStatus fields_after_tabs(Nastran *nastran, const char *line, const char *end)
-{
-    char text[9 * SMALL];
-    int length = 0;
-    for (; line < end && length < (int)sizeof text; line++)
-        do
-            text[length++] = *line == '\t' ? ' ' : *line;
-        while (*line == '\t' && length % SMALL != 0);
-    const int name = length < SMALL ? length : SMALL;
-    return fixed_fields(nastran, text + name, text + length, memchr(text, '*', (size_t)name) ? LARGE : SMALL);
-}
-
-static OstStatus read_fields(Nastran *nastran, const char *line, const char *end)
-{
-    const char *comma = memchr(line, ',', (size_t)(end - line));
-    const ptrdiff_t name = end - line < SMALL ? end - line : SMALL;
-    if (comma)
-        return free_fields(nastran, comma + 1, end, memchr(line, '*', (size_t)(comma - line)) ? 4 : 8);
-    if (memchr(line, '\t', (size_t)(end - line)))
-        return fields_after_tabs(nastran, line, end);
-    return fixed_fields(nastran, line + name, end, memchr(line, '*', (size_t)name) ? LARGE : SMALL);
-}
-
-static const char *field_of(const Nastran *nastran, int number)
-{
-    return number < nastran->fields ? nastran->field[number] : "";
-}
-
-static OstStatus take_integer(Nastran *nastran, const char *what, int number, OstGlobal *value)
-{
-    const char *text = field_of(nastran, number);
-    nastran->cursor.place = nastran->line;
-    return ost_fortran_integer(text, strlen(text), value)
-               ? OST_SUCCESS
-               : OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", number + 1, nastran->name, text,
-                               what);
-}
-
-/* --- what is read of them --- */
-
-static OstStatus take_reals(Nastran *nastran, const char *what, int first, int count, double *values)
-{
-    for (int i = 0; i < count; i++) {
-        const char *text = field_of(nastran, first + i);
-        nastran->cursor.place = nastran->line;
-        if (text[0] && !ost_fortran_real(text, strlen(text), &values[i]))
-            return OST_RAISE_MSH(&nastran->cursor, "field %d of %s is '%s', expected %s", first + i + 1, nastran->name,
-                                 text, what);
-    }
-    return OST_SUCCESS;
-}
+/* --- what is read of cards --- */
 
 static OstStatus read_system(Nastran *nastran)
 {
     OstNastranSystem *system = NULL;
-    OST_TRY(ost_nastran_system_add(&nastran->cursor, &nastran->systems, &system));
-    system->kind = nastran->name[5];
-    OST_TRY(take_integer(nastran, "the number of a coordinate system", 0, &system->label));
-    if (field_of(nastran, 1)[0])
-        OST_TRY(take_integer(nastran, "a coordinate system", 1, &system->base));
-    return take_reals(nastran, "a coordinate", 2, 9, system->points);
+    OST_TRY(ost_nastran_system_add(&nastran->card.cursor, &nastran->systems, &system));
+    system->kind = nastran->card.name[5];
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of a coordinate system", 0, &system->label));
+    if (ost_nastran_field(&nastran->card, 1)[0])
+        OST_TRY(ost_nastran_integer(&nastran->card, "a coordinate system", 1, &system->base));
+    return ost_nastran_reals(&nastran->card, "a coordinate", 2, 9, system->points);
 }
 
 static OstStatus read_grid(Nastran *nastran)
 {
     OstGlobal label = 0, system = nastran->default_system;
     double x[3] = {0.0};
-    OST_TRY(take_integer(nastran, "the number of a node", 0, &label));
-    if (field_of(nastran, 1)[0])
-        OST_TRY(take_integer(nastran, "a coordinate system", 1, &system));
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of a node", 0, &label));
+    if (ost_nastran_field(&nastran->card, 1)[0])
+        OST_TRY(ost_nastran_integer(&nastran->card, "a coordinate system", 1, &system));
     else
         nastran->in_default++;
-    OST_TRY(take_reals(nastran, "a coordinate", 2, 3, x));
+    OST_TRY(ost_nastran_reals(&nastran->card, "a coordinate", 2, 3, x));
     if (system == 0)
         return ost_cells_add_node(&nastran->cells, label, x);
-    OST_TRY(OST_GROW(nastran->cursor.ctx, &nastran->place, nastran->placed + 1));
+    OST_TRY(OST_GROW(nastran->card.cursor.ctx, &nastran->place, nastran->placed + 1));
     nastran->place[nastran->placed++] = (Placed){label, system, {x[0], x[1], x[2]}};
     return OST_SUCCESS;
 }
@@ -182,18 +81,18 @@ static OstStatus read_grid(Nastran *nastran)
 /* What GRIDs have that state no coordinate system. */
 static OstStatus read_defaults(Nastran *nastran)
 {
-    if (field_of(nastran, 1)[0])
-        OST_TRY(take_integer(nastran, "a coordinate system", 1, &nastran->default_system));
+    if (ost_nastran_field(&nastran->card, 1)[0])
+        OST_TRY(ost_nastran_integer(&nastran->card, "a coordinate system", 1, &nastran->default_system));
     return nastran->default_system == 0 || nastran->in_default == 0
                ? OST_SUCCESS
-               : OST_RAISE_MSH(&nastran->cursor, "GRDSET follows GRIDs that it is for; put it before them");
+               : OST_RAISE_MSH(&nastran->card.cursor, "GRDSET follows GRIDs that it is for; put it before them");
 }
 
 static OstStatus place_nodes(Nastran *nastran)
 {
     for (OstLocal n = 0; n < nastran->placed; n++) {
         Placed *node = &nastran->place[n];
-        OST_TRY(ost_nastran_to_basic(&nastran->cursor, &nastran->systems, node->system, node->x));
+        OST_TRY(ost_nastran_to_basic(&nastran->card.cursor, &nastran->systems, node->system, node->x));
         OST_TRY(ost_cells_add_node(&nastran->cells, node->label, node->x));
     }
     return OST_SUCCESS;
@@ -229,25 +128,27 @@ static OstStatus read_cell(Nastran *nastran, const Card *card)
     const int vertices = ost_cell_facts[linear].nodes, all = ost_cell_facts[quadratic].nodes;
     OstGlobal label = 0, property = OST_NO_GROUP, nodes[MOST_NODES] = {0}, in_order[MOST_NODES];
     int middles = 0;
-    OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
-    if (field_of(nastran, 1)[0])
-        OST_TRY(take_integer(nastran, "a property", 1, &property));
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of an element", 0, &label));
+    if (ost_nastran_field(&nastran->card, 1)[0])
+        OST_TRY(ost_nastran_integer(&nastran->card, "a property", 1, &property));
     for (int n = vertices; n < all; n++)
-        middles += field_of(nastran, 2 + n)[0] != '\0' && strcmp(field_of(nastran, 2 + n), "0") != 0;
+        middles += ost_nastran_field(&nastran->card, 2 + n)[0] != '\0' &&
+                   strcmp(ost_nastran_field(&nastran->card, 2 + n), "0") != 0;
     if (middles > 0 && middles < all - vertices) {
-        nastran->cursor.place = nastran->line;
-        return OST_RAISE_MSH(&nastran->cursor, "element %" PRId64 " has %d of %d mid-edge nodes, expected all or none",
-                             label, middles, all - vertices);
+        nastran->card.cursor.place = nastran->card.line;
+        return OST_RAISE_MSH(&nastran->card.cursor,
+                             "element %" PRId64 " has %d of %d mid-edge nodes, expected all or none", label, middles,
+                             all - vertices);
     }
-    if (ost_cell_facts[linear].dimension == 3 && field_of(nastran, 2 + all)[0]) {
-        nastran->cursor.place = nastran->line;
-        return OST_RAISE_MSH(&nastran->cursor,
+    if (ost_cell_facts[linear].dimension == 3 && ost_nastran_field(&nastran->card, 2 + all)[0]) {
+        nastran->card.cursor.place = nastran->card.line;
+        return OST_RAISE_MSH(&nastran->card.cursor,
                              "element %" PRId64
                              " has more nodes than the %d of a %s (in Gmsh: Mesh.SecondOrderIncomplete = 1)",
-                             label, all, nastran->name);
+                             label, all, nastran->card.name);
     }
     for (int n = 0; n < (middles > 0 ? all : vertices); n++)
-        OST_TRY(take_integer(nastran, "a node", 2 + n, &nodes[n]));
+        OST_TRY(ost_nastran_integer(&nastran->card, "a node", 2 + n, &nodes[n]));
     for (int n = 0; n < all; n++)
         in_order[n] = nodes[card->moved && n >= card->moved ? card->from[n - card->moved] : n];
     return ost_cells_add(&nastran->cells, middles > 0 ? quadratic : linear, label, property, in_order);
@@ -257,7 +158,7 @@ static OstStatus constraint_set(Nastran *nastran, int *set)
 {
     OstGlobal number = 0;
     char name[32];
-    OST_TRY(take_integer(nastran, "the number of a set", 0, &number));
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of a set", 0, &number));
     snprintf(name, sizeof name, "spc-%" PRId64, number);
     return ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, set);
 }
@@ -266,12 +167,12 @@ static OstStatus constraint_set(Nastran *nastran, int *set)
 static OstStatus put_nodes(Nastran *nastran, int set, int *field)
 {
     OstGlobal node = 0, last = 0;
-    OST_TRY(take_integer(nastran, "a node", *field, &node));
-    if (strcasecmp(field_of(nastran, *field + 1), "THRU") != 0)
+    OST_TRY(ost_nastran_integer(&nastran->card, "a node", *field, &node));
+    if (strcasecmp(ost_nastran_field(&nastran->card, *field + 1), "THRU") != 0)
         return ost_cells_put(&nastran->cells, set, node);
-    OST_TRY(take_integer(nastran, "a node", *field + 2, &last));
+    OST_TRY(ost_nastran_integer(&nastran->card, "a node", *field + 2, &last));
     if (node < 0 || last < node || last > OST_LARGEST_LABEL)
-        return OST_RAISE_MSH(&nastran->cursor, "nodes %" PRId64 " THRU %" PRId64, node, last);
+        return OST_RAISE_MSH(&nastran->card.cursor, "nodes %" PRId64 " THRU %" PRId64, node, last);
     *field += 2;
     OST_TRY(ost_cells_put_range(&nastran->cells, set, node, last, 1));
     ost_cells_keep_once(&nastran->cells, set);
@@ -283,8 +184,27 @@ static OstStatus read_constraints(Nastran *nastran)
 {
     int set = -1;
     OST_TRY(constraint_set(nastran, &set));
-    for (int f = 2; f < nastran->fields; f++)
-        if (field_of(nastran, f)[0])
+    for (int f = 2; f < nastran->card.fields; f++)
+        if (ost_nastran_field(&nastran->card, f)[0])
+            OST_TRY(put_nodes(nastran, set, &f));
+    return OST_SUCCESS;
+}
+
+/* OptiStruct's SET: number, type, whether it is a list, then nodes. The comment before it may have named it. */
+static OstStatus read_set(Nastran *nastran)
+{
+    OstGlobal number = 0;
+    char name[64];
+    int set = -1;
+    const char *type = ost_nastran_field(&nastran->card, 1), *form = ost_nastran_field(&nastran->card, 2);
+    if (strcasecmp(type, "GRID") != 0 || (form[0] && strcasecmp(form, "LIST") != 0))
+        return OST_SUCCESS;
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of a set", 0, &number));
+    snprintf(name, sizeof name, "set-%" PRId64, number);
+    const OstNastranName *named = &nastran->comment_name;
+    OST_TRY(ost_cells_set(&nastran->cells, OST_SET_OF_NODES, named->set == number ? named->text : name, &set));
+    for (int f = 3; f < nastran->card.fields; f++)
+        if (ost_nastran_field(&nastran->card, f)[0])
             OST_TRY(put_nodes(nastran, set, &f));
     return OST_SUCCESS;
 }
@@ -334,12 +254,12 @@ static OstStatus read_rigid(Nastran *nastran, int in_the_mean)
     Rigid rigid = {.in_the_mean = in_the_mean};
     if (nastran->rigid_count == MOST_RIGID)
         return OST_SUCCESS;
-    OST_TRY(take_integer(nastran, "the number of an element", 0, &label));
-    OST_TRY(take_integer(nastran, "a node", in_the_mean ? 2 : 1, &rigid.point));
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of an element", 0, &label));
+    OST_TRY(ost_nastran_integer(&nastran->card, "a node", in_the_mean ? 2 : 1, &rigid.point));
     snprintf(name, sizeof name, "%s-%" PRId64, in_the_mean ? "rbe3" : "rbe2", label);
     OST_TRY(ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, &rigid.set));
-    for (int f = in_the_mean ? 4 : 3; f < nastran->fields; f++) {
-        const char *text = field_of(nastran, f);
+    for (int f = in_the_mean ? 4 : 3; f < nastran->card.fields; f++) {
+        const char *text = ost_nastran_field(&nastran->card, f);
         if (isalpha((unsigned char)text[0])) /* UM, ALPHA */
             break;
         if (strchr(text, '.'))
@@ -365,7 +285,7 @@ static void warn_passed(Nastran *nastran)
             }
         ost_passed_point(&nastran->passed, on, at, rigid->in_the_mean);
     }
-    ost_passed_warn(nastran->cursor.ctx, nastran->cells.path, &nastran->passed);
+    ost_passed_warn(nastran->card.cursor.ctx, nastran->cells.path, &nastran->passed);
 }
 
 /* SPC: set, then a node, components and a displacement, twice. */
@@ -375,8 +295,8 @@ static OstStatus read_constraint(Nastran *nastran)
     int set = -1;
     OST_TRY(constraint_set(nastran, &set));
     for (int f = 1; f <= 4; f += 3)
-        if (field_of(nastran, f)[0]) {
-            OST_TRY(take_integer(nastran, "a node", f, &node));
+        if (ost_nastran_field(&nastran->card, f)[0]) {
+            OST_TRY(ost_nastran_integer(&nastran->card, "a node", f, &node));
             OST_TRY(ost_cells_put(&nastran->cells, set, node));
         }
     return OST_SUCCESS;
@@ -384,7 +304,7 @@ static OstStatus read_constraint(Nastran *nastran)
 
 static OstStatus read_comment(Nastran *nastran, const char *line, const char *end)
 {
-    OstNastranName *name = &nastran->property_name;
+    OstNastranName *name = &nastran->comment_name;
     ost_nastran_take_comment(name, line, end);
     if (name->property < 0 || !name->text[0])
         return OST_SUCCESS;
@@ -397,11 +317,11 @@ static OstStatus read_comment(Nastran *nastran, const char *line, const char *en
 static OstStatus read_property(Nastran *nastran)
 {
     OstGlobal property = 0;
-    OstNastranName *name = &nastran->property_name;
+    OstNastranName *name = &nastran->comment_name;
     if (name->property != OST_NASTRAN_NEXT_PROPERTY)
         return OST_SUCCESS;
     name->property = OST_NASTRAN_NO_PROPERTY;
-    OST_TRY(take_integer(nastran, "the number of a property", 0, &property));
+    OST_TRY(ost_nastran_integer(&nastran->card, "the number of a property", 0, &property));
     return ost_cells_name(&nastran->cells, -1, property, name->text);
 }
 
@@ -415,15 +335,15 @@ static void skip_element(Nastran *nastran)
                   {"CIFPEN", 3}, {"CTRI", 2}, {"CQUAD", 2}, {"CSHEAR", 2}, {"CBAR", 1},  {"CBEAM", 1},
                   {"CBEND", 1},  {"CROD", 1}, {"CTUBE", 1}, {"CONROD", 1}};
     for (size_t o = 0; o < sizeof others / sizeof *others; o++)
-        if (strncmp(nastran->name, others[o].begins, strlen(others[o].begins)) == 0) {
-            ost_cells_skip(&nastran->cells, others[o].dimension, nastran->name);
+        if (strncmp(nastran->card.name, others[o].begins, strlen(others[o].begins)) == 0) {
+            ost_cells_skip(&nastran->cells, others[o].dimension, nastran->card.name);
             return;
         }
 }
 
 static OstStatus end_card(Nastran *nastran)
 {
-    const char *name = nastran->name;
+    const char *name = nastran->card.name;
     if (strcmp(name, "GRID") == 0)
         return read_grid(nastran);
     if (strcmp(name, "GRDSET") == 0)
@@ -437,22 +357,14 @@ static OstStatus end_card(Nastran *nastran)
         return read_constraints(nastran);
     if (strcmp(name, "SPC") == 0)
         return read_constraint(nastran);
+    if (strcmp(name, "SET") == 0)
+        return read_set(nastran);
     if (name[0] == 'P' && strcmp(name, "PARAM") != 0 && strncmp(name, "PLOAD", 5) != 0)
         OST_TRY(read_property(nastran));
     skip_element(nastran);
     if (strcmp(name, "RBE2") == 0 || strcmp(name, "RBE3") == 0)
         OST_TRY(read_rigid(nastran, name[3] == '3'));
-    return ost_passed_take(nastran->cursor.ctx, ways, sizeof ways / sizeof *ways, name, &nastran->passed);
-}
-
-static void begin_card(Nastran *nastran, const char *line, const char *end)
-{
-    int length = 0;
-    for (; line + length < end && length < NAME - 1 && !strchr(" ,*\t", line[length]); length++)
-        nastran->name[length] = (char)toupper((unsigned char)line[length]);
-    nastran->name[length] = '\0';
-    nastran->fields = 0;
-    nastran->line = line;
+    return ost_passed_take(nastran->card.cursor.ctx, ways, sizeof ways / sizeof *ways, name, &nastran->passed);
 }
 
 /* Where the data of a line end: at a comment, which begins with $ outside quotes, without the blanks before it. */
@@ -480,15 +392,15 @@ static OstStatus read_line(Nastran *nastran, const char *line, const char *end)
         return include(nastran, line, end);
     if (!strchr("+* ,\t", *line)) {
         OST_TRY(end_card(nastran));
-        begin_card(nastran, line, end);
-    } else if (!nastran->name[0])
+        ost_nastran_begin_card(&nastran->card, line, end);
+    } else if (!nastran->card.name[0])
         return OST_SUCCESS;
-    return read_fields(nastran, line, end);
+    return ost_nastran_take_line(&nastran->card, line, end);
 }
 
 static OstStatus read_cards(Nastran *nastran, int *ended)
 {
-    OstMshCursor *cursor = &nastran->cursor;
+    OstMshCursor *cursor = &nastran->card.cursor;
     while (!*ended && cursor->next < cursor->end) {
         const char *line = cursor->next;
         const OstMshText text = ost_msh_rest_of_line(cursor);
@@ -498,7 +410,7 @@ static OstStatus read_cards(Nastran *nastran, int *ended)
             OST_TRY(read_line(nastran, text.length > 0 ? line : text.start, text.start + text.length));
     }
     OST_TRY(end_card(nastran));
-    nastran->name[0] = '\0';
+    nastran->card.name[0] = '\0';
     return OST_SUCCESS;
 }
 
@@ -531,22 +443,22 @@ static OstStatus include(Nastran *nastran, const char *line, const char *end)
     int ended = 0;
     OstMshCursor inner;
     OST_TRY(end_card(nastran));
-    nastran->name[0] = '\0';
+    nastran->card.name[0] = '\0';
     if (nastran->depth == MOST_INCLUDES)
-        return OST_RAISE_MSH(&nastran->cursor, "files include each other more than %d deep", MOST_INCLUDES);
-    included_path(&nastran->cursor, line, end, path);
-    const OstMshCursor outer = nastran->cursor;
+        return OST_RAISE_MSH(&nastran->card.cursor, "files include each other more than %d deep", MOST_INCLUDES);
+    included_path(&nastran->card.cursor, line, end, path);
+    const OstMshCursor outer = nastran->card.cursor;
     if (ost_msh_open(outer.ctx, path, &inner) != OST_SUCCESS) {
         char reason[PATH_MAX + 128];
         snprintf(reason, sizeof reason, "%s", ost_error_text(outer.ctx));
-        return OST_RAISE_MSH(&nastran->cursor, "names a file that is to be read here: %s", reason);
+        return OST_RAISE_MSH(&nastran->card.cursor, "names a file that is to be read here: %s", reason);
     }
-    nastran->cursor = inner;
+    nastran->card.cursor = inner;
     nastran->depth++;
     const OstStatus status = read_cards(nastran, &ended);
     nastran->depth--;
-    ost_msh_close(&nastran->cursor);
-    nastran->cursor = outer;
+    ost_msh_close(&nastran->card.cursor);
+    nastran->card.cursor = outer;
     return status;
 }
 
@@ -565,7 +477,7 @@ static int go_to_bulk_data(OstMshCursor *cursor)
 
 static OstStatus read_lines(Nastran *nastran)
 {
-    OstMshCursor *cursor = &nastran->cursor;
+    OstMshCursor *cursor = &nastran->card.cursor;
     const int begun = go_to_bulk_data(cursor);
     int ended = 0;
     OST_TRY(read_cards(nastran, &ended));
@@ -576,15 +488,15 @@ static OstStatus read_lines(Nastran *nastran)
 
 OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chunk)
 {
-    Nastran nastran = {.property_name = {.property = OST_NASTRAN_NO_PROPERTY}};
+    Nastran nastran = {.comment_name = {.property = OST_NASTRAN_NO_PROPERTY}};
     OstStatus status = ost_cells_open(ctx, path, &nastran.cells);
-    OST_THEN(ost_msh_open(ctx, path, &nastran.cursor));
+    OST_THEN(ost_msh_open(ctx, path, &nastran.card.cursor));
     OST_THEN(read_lines(&nastran));
     OST_THEN(place_nodes(&nastran));
     if (status == OST_SUCCESS)
         warn_passed(&nastran);
-    OST_FREE(nastran.field, nastran.systems.system, nastran.place, nastran.passed.word);
-    ost_msh_close(&nastran.cursor);
+    OST_FREE(nastran.card.field, nastran.systems.system, nastran.place, nastran.passed.word);
+    ost_msh_close(&nastran.card.cursor);
     OST_THEN(ost_cells_finish(&nastran.cells, chunk));
     ost_cells_close(&nastran.cells);
     return status;

@@ -40,7 +40,8 @@ void ost_nastran_take_comment(OstNastranName *name, const char *line, const char
     } else if (sscanf(comment, "$ANSA_NAME;%" SCNd64 ";", &found.property) == 1) {
         *name = found;
         return;
-    } else if (!read_both(comment, &found) && !read_next(comment, &found))
+    } else if (sscanf(comment, "$HMSET %" SCNd64 " %*d \"%63[^\"]", &found.set, found.text) != 2 &&
+               !read_both(comment, &found) && !read_next(comment, &found))
         return;
     size_t length = strcspn(found.text, "\r");
     while (length > 0 && isspace((unsigned char)found.text[length - 1]))
