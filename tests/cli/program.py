@@ -78,7 +78,7 @@ def read_points(path, array="displacement", step=None):
     reader.Update()
     if step is not None:
         sys.path.insert(0, os.path.join(SOURCE, "scripts"))
-        import steps
+        from rendering import steps
         steps.take(reader.GetOutput(), path, step)
     data = reader.GetOutput().GetPointData()
     labels = vtk_to_numpy(data.GetArray("vertex"))

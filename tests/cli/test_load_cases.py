@@ -12,7 +12,7 @@ import h5py
 from program import MPIEXEC, PROGRAM, SANITIZED, SOURCE, check, fewer, new_folder, read_json, read_points, run, write
 
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
-import steps  # noqa: E402
+from rendering import steps  # noqa: E402
 
 CASE = """title: a beam
 mesh: {block: {size: [6, 1, 1], divisions: [12, 2, 2]}}

@@ -43,6 +43,10 @@ check(read(drawn) == read("docs", "pictures", "map.svg"), "docs/pictures/map.svg
 rooms = {name + "/" for name in os.listdir(os.path.join(SOURCE, "src"))}
 on_map = set(re.findall(r"^\| \d \| `(\w+/)`", read("docs", "architecture.md"), re.M))
 check(rooms <= on_map, f"docs/architecture.md has no row for {sorted(rooms - on_map)}")
+for owner, row in re.findall(r"^\| \d \| `(\w+)/` (.*)$", read("docs", "architecture.md"), re.M):
+    inner = {entry.name for entry in os.scandir(os.path.join(SOURCE, "src", owner)) if entry.is_dir()}
+    told = set(re.findall(r"`(\w+)/`", row))
+    check(inner == told, f"docs/architecture.md, row of {owner}/: on one side alone {sorted(inner ^ told)}")
 
 # The tubes, and the plank where gmsh is at hand (its meshes differ a little from version to version).
 for tube in pictures.TUBES:

@@ -16,7 +16,10 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
 sys.path.insert(0, os.path.dirname(RENDER))
-from marks import dashes, gather_loads, make_cells, make_points  # noqa: E402
+from rendering.bodies import shade_of  # noqa: E402
+from rendering.fields import axes_of, part_of  # noqa: E402
+from rendering.marks import dashes, gather_loads, make_cells, make_points  # noqa: E402
+from rendering.results import each_step  # noqa: E402
 
 
 class Render(unittest.TestCase):
@@ -73,7 +76,6 @@ class Render(unittest.TestCase):
                          ["shelf", "shelf, full", "shelf"])
 
     def test_von_mises_is_named_once(self):
-        shade_of = runpy.run_path(RENDER)["shade_of"]
         bodies = [SimpleNamespace(value=numpy.array([0.0, 1.0]), envelope=False)]
         for field, name in (("von_mises", "von Mises"), ("stress", "stress von Mises"), ("stress:mises", "stress von Mises"),
                             ("largest_von_mises", "largest von Mises"), ("material_stress:11", "material stress 11"),
@@ -81,7 +83,6 @@ class Render(unittest.TestCase):
             self.assertEqual(shade_of(bodies, field).name, name)
 
     def test_parts_have_the_names_of_the_docs(self):
-        part_of = runpy.run_path(RENDER)["part_of"]
         for width, parts in ((6, {"stress": "xx yy zz xy yz zx", "material_stress": "11 22 33 12 23 31",
                                   "material_strain_tensor": "11 22 33 12 23 31"}),
                              (3, {"principal_stress": "largest middle least", "principal_direction_1": "x y z"})):
@@ -150,26 +151,24 @@ output: {fields: [displacement, load, reaction, material_stress]}
         numpy.testing.assert_allclose(ends[1] - ends[0], [0, 4.8, 0], atol=1e-6)  # of 0.8 × 10 what lies in its plane
 
     def test_one_axis_is_enough_for_fibres(self):
-        render = runpy.run_path(RENDER)
         data = vtkUnstructuredGrid().GetCellData()
-        self.assertIsNone(render["axes_of"](data))
+        self.assertIsNone(axes_of(data))
         one = numpy_to_vtk(numpy.array([[0.0, 0, 1], [0, 1, 0]]), deep=True)
         one.SetName("e3")
         data.AddArray(one)
-        numpy.testing.assert_array_equal(render["axes_of"](data)[:, 2], [[0, 0, 1], [0, 1, 0]])
-        self.assertTrue(numpy.isnan(render["axes_of"](data)[:, :2]).all())
+        numpy.testing.assert_array_equal(axes_of(data)[:, 2], [[0, 0, 1], [0, 1, 0]])
+        self.assertTrue(numpy.isnan(axes_of(data)[:, :2]).all())
         self.assertIn("output: {fields: [e1]}, or [axes]", self.refusal(self.result, "--fibres", "e1"))
 
     def test_a_list_stands_for_its_files(self):
-        listed = runpy.run_path(RENDER)["each_step"]
         pvd, series = (os.path.join(self.folder.name, name) for name in ("all.pvd", "all.hdf.series"))
         with open(pvd, "w") as stream:
             stream.write('<VTKFile type="Collection"><Collection><DataSet timestep="1" file="a.vtu"/>'
                          '<DataSet timestep="2" file="b.vtu"/></Collection></VTKFile>')
         with open(series, "w") as stream:
             stream.write('{"file-series-version": "1.0", "files": [{"name": "a.hdf", "time": 1}]}')
-        self.assertEqual(listed(pvd), [os.path.join(self.folder.name, name) for name in ("a.vtu", "b.vtu")])
-        self.assertEqual(listed(series), [os.path.join(self.folder.name, "a.hdf")])
+        self.assertEqual(each_step(pvd), [os.path.join(self.folder.name, name) for name in ("a.vtu", "b.vtu")])
+        self.assertEqual(each_step(series), [os.path.join(self.folder.name, "a.hdf")])
         with open(pvd, "w") as stream:
             stream.write("no list")
         self.assertIn("cannot be read as a list of results", self.refusal(pvd))

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Iterations to a relative residual of 1e-8, fitted to tubes, blocks, beams and octants (docs/performance.md). They
+/* Iterations to a relative residual of 1e-8, fitted to tubes, blocks, beams and octants (docs/how-it-scales.md). They
  * depend little on size; orders differ. Thin bodies, near incompressibility and moduli that differ need more. */
 static const struct {
     double usual, thinner, incompressible, uneven;
@@ -15,7 +15,7 @@ static const double usual_poisson = 0.3;
 /* Thin walls bend, and the longer their cells are over the wall's thickness, the softer the bending modes are beside
  * the others; more cells through it make less of that. Iterations grow by 1 + this × (slenderness / cells
  * across)^power, by order: to a residual, and where the mesh's error ends them. Fitted to plates and tubes whose cells
- * are 0.2 to 7 times as long as the wall is thick (docs/performance.md). */
+ * are 0.2 to 7 times as long as the wall is thick (docs/how-it-scales.md). */
 static const double slender[2] = {0.22, 0.35}, stopped_slender[2] = {0.27, 0.65}, slender_power = 1.5;
 
 /* By what multigrid coarsens: so many times the setup, the bytes of an iteration and, of what does not bend and what

@@ -5,7 +5,7 @@
 #include "study/scale/scale.h"
 
 /* A model of an iteration on any number of ranks, made from the counts of a run: what a rank reads of memory, its
- * messages to neighbours, their bytes, sums over all ranks, and the coarsest level. docs/performance.md states it. */
+ * messages to neighbours, their bytes, sums over all ranks, and the coarsest level (docs/how-it-scales.md). */
 
 /* Columns: name, label. */
 #define OST_SCALE_PART_TABLE(X)        \

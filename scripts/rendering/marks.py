@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scripts/render marks on a shape: loads as arrows, supports as dots, fibres as dashes."""
+"""What is marked on a shape: loads as arrows, supports as dots, fibres as dashes."""
 import numpy as np
 from matplotlib.colors import to_rgb
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy

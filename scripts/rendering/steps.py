@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps of a VTKHDF file, for scripts/render: VTK 9.1 reads the first alone."""
+"""Steps of a VTKHDF file: VTK 9.1 reads the first alone."""
 import os
 
 from vtkmodules.util.numpy_support import numpy_to_vtk

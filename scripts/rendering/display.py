@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A display for scripts/render where there is none."""
+"""A display where there is none."""
 import ctypes
 import os
 import signal
