@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 
+#include "assembly/springs.h"
 #include "case/select.h"
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/parallel/halo.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "fields/stress_measure.h"
@@ -57,19 +59,6 @@ static void find_arm(const OstProblem *problem, const OstWatch *watch, const dou
     }
 }
 
-/* Of what is out of balance at a node, what supports take, with the force of its spring. Nodes that follow others, and
- * those that they follow, are solved for to the residual. */
-static void keep_reaction(const OstSupports *supports, const double *u, OstLocal node, double force[3])
-{
-    double projector[9], free_force[3], of_spring[3] = {0.0};
-    ost_supports_get(supports, node, projector, NULL);
-    ost_apply3(projector, force, free_force);
-    if (supports->spring)
-        ost_apply3(supports->spring + 9 * (size_t)node, u + 3 * (size_t)node, of_spring);
-    for (int i = 0; i < 3; i++)
-        force[i] -= (supports->links ? 0.0 : free_force[i]) + of_spring[i];
-}
-
 /* The nodes of a reaction, and which components of what acts there others bear too (ost_select_shared). */
 typedef struct Borne {
     OstLocal count, *nodes;
@@ -90,47 +79,133 @@ static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, 
     return status;
 }
 
+/* The forces on owned nodes, 3 × owned_nodes each. */
+typedef struct Forces {
+    double *force, *load;   /* what is out of balance; room, then that of springs */
+    double *borne, *passed; /* as ost_supports_split has it */
+} Forces;
+
+static OstStatus find_forces(const OstProblem *problem, double t, const double *u, Forces *of)
+{
+    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
+    OstStatus status = OST_NEW(problem->ctx, &of->force, numbers);
+    OST_THEN(OST_NEW(problem->ctx, &of->load, numbers));
+    OST_THEN(OST_NEW(problem->ctx, &of->borne, numbers));
+    OST_THEN(OST_NEW(problem->ctx, &of->passed, numbers));
+    OST_TRY(ost_agree(problem->ctx, status));
+    OST_TRY(ost_problem_force(problem, t, u, of->force));
+    ost_problem_load(problem, t, u, of->load);
+    for (size_t i = 0; i < numbers; i++)
+        of->force[i] -= of->load[i];
+    memset(of->load, 0, numbers * sizeof *of->load);
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, 1.0, u, of->load);
+    return ost_supports_split(problem->supports, of->force, of->borne, of->passed, NULL);
+}
+
 /* Seven numbers: their reaction, or its moment; the part that other supports may bear as well; and the sum of the
  * lengths of the nodes' forces, or moments. */
 static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
                                const Borne *borne, double *forces, double sum[7])
 {
-    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     const OstLocal *nodes = borne->nodes;
-    double *force = NULL, *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, &force, numbers);
-    OST_THEN(OST_NEW(problem->ctx, &load, numbers));
-    OST_THEN(ost_problem_force(problem, t, u, force));
-    if (status == OST_SUCCESS)
-        ost_problem_load(problem, t, u, load);
+    Forces of = {NULL, NULL, NULL, NULL};
+    const OstStatus status = find_forces(problem, t, u, &of);
     memset(sum, 0, 7 * sizeof *sum);
-    for (OstLocal n = 0; n < borne->count && status == OST_SUCCESS; n++) {
+    for (OstLocal k = 0; k < borne->count && status == OST_SUCCESS; k++) {
+        const unsigned char shared = borne->shared[nodes[k]];
         double of_node[3], in_doubt[3], arm[3], moment[3], moment_in_doubt[3];
-        if (nodes[n] >= problem->mesh->owned_nodes)
+        if (nodes[k] >= problem->mesh->owned_nodes)
             continue;
-        find_arm(problem, watch, u, nodes[n], arm);
-        for (size_t i = 0; i < 3; i++)
-            of_node[i] = force[3 * (size_t)nodes[n] + i] - load[3 * (size_t)nodes[n] + i];
-        keep_reaction(problem->supports, u, nodes[n], of_node);
+        find_arm(problem, watch, u, nodes[k], arm);
         for (int i = 0; i < 3; i++) {
-            const double share = ost_selected_share(borne->shared[nodes[n]], i);
-            in_doubt[i] = share * (1.0 - share) * 2.0 * of_node[i];
-            of_node[i] *= share;
+            const size_t n = 3 * (size_t)nodes[k] + (size_t)i;
+            const double share = ost_selected_share(shared, i), own = of.borne[n] + of.load[n];
+            in_doubt[i] = share * (1.0 - share) * 2.0 * own;
+            of_node[i] = share * own + (shared & OST_SHARED_BUT_PASSED ? 0.0 : of.passed[n]);
         }
         ost_cross3(arm, of_node, moment);
         ost_cross3(arm, in_doubt, moment_in_doubt);
         if (forces)
-            memcpy(forces + 3 * (size_t)nodes[n], of_node, sizeof of_node);
+            memcpy(forces + 3 * (size_t)nodes[k], of_node, sizeof of_node);
         for (int i = 0; i < 3; i++) {
             sum[i] += watch->of_moment ? moment[i] : of_node[i];
             sum[3 + i] += watch->of_moment ? moment_in_doubt[i] : in_doubt[i];
         }
         sum[6] += ost_norm3(watch->of_moment ? moment : of_node);
     }
-    OST_FREE(force);
-    OST_FREE(load);
-    OST_TRY(ost_agree(problem->ctx, status));
+    OST_FREE(of.force, of.load, of.borne, of.passed);
+    OST_TRY(status);
     return ost_sum(problem->ctx, 7, sum);
+}
+
+/* A leader's support takes what its followers pass on: these move by it as they would without it. What links pass on
+ * counts where the selection has it: with the part that no support takes, the leader moves alone. `motion`: of the
+ * selected nodes alone; *springs: does one act on a follower that moves? Its force is not then known from the work. */
+static OstStatus move_linked(const OstProblem *problem, const Borne *borne, double *motion, int *springs)
+{
+    const OstSupports *supports = problem->supports;
+    const OstLinks *links = supports->links;
+    const OstLocal owned = problem->mesh->owned_nodes;
+    double *held = NULL, *followed = NULL;
+    OstStatus status = OST_NEW(problem->ctx, &held, 3 * (size_t)links->slots);
+    OST_THEN(OST_NEW(problem->ctx, &followed, 3 * (size_t)owned));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    for (OstLocal k = 0; k < borne->count; k++) {
+        const OstLocal node = borne->nodes[k];
+        const double is_passed = borne->shared[node] & OST_SHARED_BUT_PASSED ? 0.0 : 1.0;
+        double *m = motion + 3 * (size_t)node, projector[9], given[3], free_part[3], free_share[3];
+        if (node >= owned || !(links->leads[node] || links->of_node[node] >= 0))
+            continue;
+        memcpy(given, m, sizeof given);
+        ost_supports_get(supports, node, projector, NULL);
+        ost_apply3(projector, given, free_part);
+        for (int i = 0; i < 3; i++)
+            m[i] = is_passed * given[i];
+        if (links->of_node[node] >= 0)
+            continue;
+        double shared[3];
+        for (int i = 0; i < 3; i++)
+            shared[i] = ost_selected_share(borne->shared[node], i) * given[i];
+        ost_apply3(projector, shared, free_share);
+        for (int i = 0; i < 3; i++) {
+            held[3 * (size_t)node + (size_t)i] = shared[i] - m[i];
+            m[i] = shared[i] - free_share[i] + is_passed * free_part[i];
+        }
+    }
+    OST_TRY_DONE(ost_links_follow_held(links, held, followed));
+    for (size_t i = 0; i < 3 * (size_t)owned; i++) {
+        *springs |= supports->spring && followed[i] != 0.0 && supports->spring[9 * (i / 3) + 4 * (i % 3)] != 0.0;
+        motion[i] += followed[i];
+    }
+    OST_TRY_DONE(ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *motion, motion)));
+done:
+    OST_FREE(held, followed);
+    return status;
+}
+
+/* The motion that the reaction is the work on, of what is out of balance: not where who takes it is in doubt. */
+static OstStatus find_motion(const OstProblem *problem, const OstWatch *watch, const double *u, const Borne *borne,
+                             OstInterest *interest)
+{
+    const OstLinks *links = problem->supports->links;
+    int in_doubt = 0;
+    for (OstLocal k = 0; k < borne->count; k++) {
+        const OstLocal node = borne->nodes[k];
+        double arm[3], *moved = interest->moved + 3 * (size_t)node;
+        find_arm(problem, watch, u, node, arm);
+        memcpy(moved, interest->direction, 3 * sizeof *moved);
+        if (watch->of_moment)
+            ost_cross3(interest->direction, arm, moved);
+        in_doubt |= borne->shared[node] & OST_SHARED_IN_DOUBT;
+        for (int i = 0; i < 3 && !(links && (links->leads[node] || links->of_node[node] >= 0)); i++)
+            moved[i] *= ost_selected_share(borne->shared[node], i);
+    }
+    if (links)
+        OST_TRY(move_linked(problem, borne, interest->moved, &in_doubt));
+    OST_TRY(ost_max_ints(problem->ctx, 1, &in_doubt));
+    interest->doubt = in_doubt ? NAN : interest->doubt;
+    return OST_SUCCESS;
 }
 
 static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
@@ -150,19 +225,13 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     interest->value = ost_dot3(direction, sum);
     interest->doubt = fabs(ost_dot3(direction, sum + 3));
     interest->size = sum[6];
-    for (OstLocal n = 0; n < borne.count && status == OST_SUCCESS; n++) {
-        double arm[3], *moved = interest->moved + 3 * (size_t)nodes[n];
-        find_arm(problem, watch, u, nodes[n], arm);
-        memcpy(moved, direction, sizeof direction);
-        if (watch->of_moment)
-            ost_cross3(direction, arm, moved);
-        for (int i = 0; i < 3; i++)
-            moved[i] *= ost_selected_share(borne.shared[nodes[n]], i);
-        if (interest->load && nodes[n] < problem->mesh->owned_nodes) { /* arms grow with the displacement */
-            double force[3];
-            memcpy(force, interest->load + 3 * (size_t)nodes[n], sizeof force);
-            ost_cross3(direction, force, interest->load + 3 * (size_t)nodes[n]);
-        }
+    OST_THEN(find_motion(problem, watch, u, &borne, interest));
+    for (OstLocal n = 0; n < borne.count && interest->load && status == OST_SUCCESS; n++) {
+        double force[3], *turned = interest->load + 3 * (size_t)nodes[n];
+        if (nodes[n] >= problem->mesh->owned_nodes)
+            continue;
+        memcpy(force, turned, sizeof force); /* arms grow with the displacement */
+        ost_cross3(direction, force, turned);
     }
     OST_FREE(borne.nodes);
     OST_FREE(borne.shared);

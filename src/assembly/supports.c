@@ -290,3 +290,42 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
     *supports = made;
     return status;
 }
+
+static void split_node(const OstSupports *supports, OstLocal node, const double force[3], const double of_free[3],
+                       const double of_held[3], double *borne, double *passed, double *residual)
+{
+    const int follows = supports->links && supports->links->of_node[node] >= 0;
+    double projector[9], free_force[3];
+    ost_supports_get(supports, node, projector, NULL);
+    ost_apply3(projector, force, free_force);
+    for (size_t i = 0; i < 3; i++) {
+        const size_t n = 3 * (size_t)node + i;
+        borne[n] = follows ? 0.0 : force[i] - free_force[i] + of_held[i];
+        passed[n] = follows ? force[i] : -of_free[i] - of_held[i];
+        if (residual)
+            residual[n] = follows ? of_free[i] : free_force[i] + of_free[i];
+    }
+}
+
+OstStatus ost_supports_split(const OstSupports *supports, const double *out_of_balance, double *borne, double *passed,
+                             double *residual)
+{
+    static const double nothing[3] = {0.0};
+    const OstLinks *links = supports->links;
+    double *of_free = NULL, *of_held = NULL;
+    OstStatus status = OST_SUCCESS;
+    if (links) {
+        status = OST_NEW(links->ctx, &of_free, 3 * (size_t)links->slots);
+        OST_THEN(OST_NEW(links->ctx, &of_held, 3 * (size_t)links->slots));
+        status = ost_agree(links->ctx, status);
+        OST_THEN(ost_links_gather(links, out_of_balance, of_free));
+        OST_THEN(ost_links_gather_held(links, out_of_balance, of_held));
+    }
+    for (OstLocal node = 0; node < supports->mesh->owned_nodes && status == OST_SUCCESS; node++) {
+        const size_t n = 3 * (size_t)node;
+        split_node(supports, node, out_of_balance + n, links ? of_free + n : nothing, links ? of_held + n : nothing,
+                   borne, passed, residual);
+    }
+    OST_FREE(of_free, of_held);
+    return status;
+}

@@ -55,4 +55,11 @@ unsigned char ost_supports_held(const OstSupports *supports, OstLocal node);
 /* Local. Adds `factor` times what the supports prescribe to a displacement of all local nodes. */
 void ost_supports_add(const OstSupports *supports, double factor, double *u);
 
+/* Collective. What keeps owned nodes in balance, from what is out of balance there (internal forces less loads and
+ * springs), each 3 × owned_nodes: `borne` by constraints, at leaders with what followers pass on to these; `passed` on
+ * by links: of a follower all, of a leader less what its followers add. What is left is the residual, at rigid faces'
+ * carriers that of their rows: `residual`, or NULL. */
+OstStatus ost_supports_split(const OstSupports *supports, const double *out_of_balance, double *borne, double *passed,
+                             double *residual);
+
 #endif

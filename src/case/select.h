@@ -8,14 +8,15 @@
  * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
-enum { OST_SHARED_WITH_TIE = 64 };
+/* OST_SHARED_BUT_PASSED: what links and moved couplings pass on at the node belongs to others; IN_DOUBT: to which of
+ * two of them cannot be told, or there is a spring too. */
+enum { OST_SHARED_BUT_PASSED = 64, OST_SHARED_IN_DOUBT = 128 };
 
 /* Collective. What other supports bear of the reaction of a selection's nodes, along x, y and z: a part (bits 1, 2, 4)
  * or all (bits 8, 16, 32). Nodes at an edge of its faces are asked, behind which faces of the surface are held that are
  * not selected: what acts there is borne by both, or, where the selected faces are not held along that direction, by
- * the others alone; a spring bears nothing where a constraint or a rigid face does. OST_SHARED_WITH_TIE: a tie ends
- * there too, whose force is part of what acts. `held` and `*shared` (memory from the context): a byte for each local
- * node, the former as ost_supports_held has it. */
+ * the others alone; a spring bears nothing where a constraint or a rigid face does. `held` and `*shared` (memory from
+ * the context): a byte for each local node, the former as ost_supports_held has it. */
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared);
 

@@ -167,14 +167,17 @@ enum {
     SELECTED = 1 << 12,
     HAS_FACE = 1 << 13,
     IS_RIGID = 1 << 14,
-    IS_TIED = 1 << 15
+    LINKS_OWN = 1 << 15,    /* a link, or moved coupling, has selected faces there */
+    LINKS_OTHERS = 1 << 16, /* one has others there alone */
+    HAS_OWN = 1 << 17,      /* the one that is looked at */
+    HAS_OTHERS = 1 << 18
 };
 
 /* What holds a face. */
-typedef enum { HELD_BY_CONSTRAINT, HELD_RIGID, HELD_BY_SPRINGS, HELD_BY_TIE } Holder;
+typedef enum { HELD_BY_CONSTRAINT, HELD_RIGID, HELD_BY_SPRINGS, HELD_BY_LINK } Holder;
 
 /* Faces between selected nodes are those of the selection. */
-static void look_at_selected(const OstSurface *surface, unsigned short *flags)
+static void look_at_selected(const OstSurface *surface, unsigned *flags)
 {
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
@@ -189,7 +192,7 @@ static void look_at_selected(const OstSurface *surface, unsigned short *flags)
 /* Faces between nodes `in` one support leave bits at their nodes: of constraints for what all of these are `held`
  * along; of rigid faces, and of springs, which on quadratic tets act between vertices, for all directions. */
 static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held, Holder by,
-                          unsigned short *flags)
+                          unsigned *flags)
 {
     for (OstLocal f = 0; f < surface->count; f++) {
         const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
@@ -200,16 +203,16 @@ static void look_at_faces(const OstSurface *surface, const unsigned char *in, co
         }
         const int shift = (by == HELD_BY_SPRINGS ? BY_SPRINGS : 0) + (selected ? OWN : OTHERS);
         unsigned bits = along << shift | (along && by == HELD_RIGID ? IS_RIGID : 0U);
-        if (by == HELD_BY_TIE)
-            bits = along && !selected ? IS_TIED : 0U;
+        if (by == HELD_BY_LINK)
+            bits = along && selected ? HAS_OWN : along ? HAS_OTHERS : 0U;
         for (int k = 0; k < surface->nodes_per_face; k++)
-            flags[node[k]] |= (unsigned short)bits;
+            flags[node[k]] |= bits;
     }
 }
 
 /* Boundaries one by one: sides of a body one tet thick lie between two of them. */
 static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                                 const OstSelection *on, const unsigned char *held, Holder by, unsigned short *flags)
+                                 const OstSelection *on, const unsigned char *held, Holder by, unsigned *flags)
 {
     unsigned char *in = NULL;
     if (on->kind != OST_SELECT_BOUNDARY) {
@@ -243,17 +246,50 @@ static unsigned char borne_by_others(unsigned flags, unsigned held)
         const unsigned by = constrained >> i & 1 ? flags : held >> (3 + i) & 1 ? flags >> BY_SPRINGS : 0;
         const unsigned own = by >> (OWN + i) & 1, others = by >> (OTHERS + i) & 1;
         half |= (own & others) << i;
-        const unsigned is_tie_alone = flags & IS_TIED && !((constrained | held >> 3) >> i & 1);
-        all |= ((others & ~own) | is_tie_alone) << i;
+        all |= (others & ~own) << i;
     }
-    return (unsigned char)(half | all << 3 | (flags & IS_TIED ? OST_SHARED_WITH_TIE : 0U));
+    const unsigned passed = flags & LINKS_OWN ? 0U : OST_SHARED_BUT_PASSED;
+    const int is_in_doubt = flags & LINKS_OTHERS && (flags & LINKS_OWN || held >> 3);
+    return (unsigned char)(half | all << 3 | passed | (is_in_doubt ? OST_SHARED_IN_DOUBT : 0U));
+}
+
+/* Of a rigid face `held` tells whose a node's force is. */
+static void take_link(OstLocal count, int is_rigid, unsigned *flags)
+{
+    for (OstLocal n = 0; n < count; n++) {
+        if (flags[n] & HAS_OWN)
+            flags[n] |= LINKS_OWN;
+        else if (flags[n] & HAS_OTHERS && !is_rigid)
+            flags[n] |= LINKS_OTHERS;
+        flags[n] &= ~(unsigned)(HAS_OWN | HAS_OTHERS);
+    }
+}
+
+/* The faces of a constraint that links. */
+static OstStatus look_at_link(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
+                              const OstConstraint *constraint, const unsigned char *held, unsigned *flags)
+{
+    const int is_rigid = constraint->kind == OST_CONSTRAIN_RIGID;
+    OstStatus status = OST_SUCCESS;
+    if (constraint->kind != OST_CONSTRAIN_PERIODIC)
+        status = look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_LINK, flags);
+    if (constraint->kind == OST_CONSTRAIN_TIED)
+        OST_THEN(look_at_support(c, mesh, surface, &constraint->to, held, HELD_BY_LINK, flags));
+    for (int p = 0; constraint->kind == OST_CONSTRAIN_PERIODIC && p < constraint->pair_count; p++) {
+        const OstSelection pair = {.kind = OST_SELECT_BOUNDARY, .boundaries = {2, (char **)constraint->pair[p]}};
+        OST_THEN(look_at_support(c, mesh, surface, &pair, held, HELD_BY_LINK, flags));
+    }
+    if (is_rigid)
+        OST_THEN(look_at_support(c, mesh, surface, &constraint->on, held, HELD_RIGID, flags));
+    take_link(mesh->node_count, is_rigid, flags);
+    return status;
 }
 
 OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
                             const OstLocal *nodes, unsigned char **shared)
 {
     const OstSurface *surface;
-    unsigned short *flags = NULL;
+    unsigned *flags = NULL;
     OST_TRY(ost_mesh_surface(mesh, &surface));
     OstStatus status = OST_NEW(mesh->ctx, shared, mesh->node_count);
     OST_THEN(OST_NEW(mesh->ctx, &flags, mesh->node_count));
@@ -264,14 +300,15 @@ OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigne
         look_at_selected(surface, flags);
     for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++) {
         const OstConstraint *constraint = &c->constraints[k];
-        const Holder by = constraint->kind == OST_CONSTRAIN_RIGID ? HELD_RIGID : HELD_BY_CONSTRAINT;
-        if (by == HELD_RIGID || !ost_constraint_links(constraint))
-            status = look_at_support(c, mesh, surface, &constraint->on, held, by, flags);
-        if (constraint->kind == OST_CONSTRAIN_TIED && status == OST_SUCCESS) {
-            status = look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_TIE, flags);
-            OST_THEN(look_at_support(c, mesh, surface, &constraint->to, held, HELD_BY_TIE, flags));
-        }
+        status = ost_constraint_links(constraint)
+                     ? look_at_link(c, mesh, surface, constraint, held, flags)
+                     : look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_CONSTRAINT, flags);
     }
+    for (int k = 0; k < c->load_count && status == OST_SUCCESS; k++)
+        if (c->loads[k].kind == OST_LOAD_DISTRIBUTING) {
+            status = look_at_support(c, mesh, surface, &c->loads[k].on, held, HELD_BY_LINK, flags);
+            take_link(mesh->node_count, 0, flags);
+        }
     for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
         status = look_at_support(c, mesh, surface, &c->springs[k].on, held, HELD_BY_SPRINGS, flags);
     for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)

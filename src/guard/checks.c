@@ -94,38 +94,39 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
         constrained[i] = vector[i] - free_part[i];
 }
 
-/* Of nodes that follow others (assembly/links/links.h): what their forces add at their leaders. A follower's own force
- * is all of the link; a leader's is less what its followers add, and what is left of that is the residual. */
-typedef struct LinkForces {
-    const OstLinks *links; /* NULL: there are none */
-    double *at_leaders;    /* 3 × slots */
-} LinkForces;
+/* Where nodes follow others: what takes the owned nodes' forces (ost_supports_split), 3 × owned_nodes each. */
+typedef struct Takers {
+    double *borne, *passed, *residual; /* NULL: no node follows another */
+} Takers;
 
-static OstStatus find_link_forces(const OstResult *result, const double *internal, LinkForces *of)
+/* The reaction is that of the springs so far. */
+static OstStatus find_takers(const OstProblem *problem, const OstResult *result, const double *internal, Takers *by)
 {
     const size_t owned = 3 * (size_t)result->mesh->owned_nodes;
     double *out_of_balance = NULL;
-    if (!of->links)
+    if (!problem->supports->links)
         return OST_SUCCESS;
-    OstStatus status = OST_NEW(result->ctx, &of->at_leaders, 3 * (size_t)of->links->slots);
-    OST_THEN(OST_NEW(result->ctx, &out_of_balance, owned));
+    OstStatus status = OST_NEW(result->ctx, &out_of_balance, owned);
+    OST_THEN(OST_NEW(result->ctx, &by->borne, owned));
+    OST_THEN(OST_NEW(result->ctx, &by->passed, owned));
+    OST_THEN(OST_NEW(result->ctx, &by->residual, owned));
     status = ost_agree(result->ctx, status);
     for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
         out_of_balance[i] = internal[i] - result->force[i] - result->reaction[i];
-    OST_THEN(ost_links_gather(of->links, out_of_balance, of->at_leaders));
+    OST_THEN(ost_supports_split(problem->supports, out_of_balance, by->borne, by->passed, by->residual));
     OST_FREE(out_of_balance);
     return status;
 }
 
-/* Changes what the supports take of a node's force; `residual` is what nothing takes. */
-static void take_link_forces(const LinkForces *of, OstLocal node, const double out_of_balance[3],
-                             double of_constraints[3], double residual[3])
+/* What supports and links take of a node's force, and what nothing takes. */
+static void take_force(const OstSupports *supports, const Takers *by, OstLocal node, const double out_of_balance[3],
+                       double taken[3], double residual[3])
 {
-    const int follows = of->links && of->links->of_node[node] >= 0;
-    for (int i = 0; i < 3; i++) {
-        const double at_leader = of->links ? of->at_leaders[3 * (size_t)node + (size_t)i] : 0.0;
-        of_constraints[i] = follows ? out_of_balance[i] : of_constraints[i] - at_leader;
-        residual[i] = follows ? at_leader : out_of_balance[i] - of_constraints[i];
+    const size_t n = 3 * (size_t)node;
+    project_on_constrained(supports, node, out_of_balance, taken);
+    for (size_t i = 0; i < 3; i++) {
+        taken[i] = by->borne ? by->borne[n + i] + by->passed[n + i] : taken[i];
+        residual[i] = by->borne ? by->residual[n + i] : out_of_balance[i] - taken[i];
     }
 }
 
@@ -136,22 +137,21 @@ typedef struct NodeForces {
 
 /* The reaction is that of the springs so far. An eigenstrain acts like loads that balance each other, `eigen` (NULL if
  * there is none): they count in the sizes that imbalances are relative to. */
-static void add_node(OstResult *result, const Body *body, const LinkForces *links, OstLocal node,
-                     const NodeForces *of_nodes, double *sums)
+static void add_node(OstResult *result, const Body *body, const Takers *by, OstLocal node, const NodeForces *of_nodes,
+                     double *sums)
 {
     const double *internal = of_nodes->internal + 3 * (size_t)node, *magnitude = of_nodes->magnitude + 3 * (size_t)node;
     const double *eigen = of_nodes->eigen ? of_nodes->eigen + 3 * (size_t)node : NULL;
     const double *f = result->force + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
-    double out_of_balance[3], of_constraints[3], constrained[3], external[3], loaded[3], whole[3], arm[3], moment[3];
+    double out_of_balance[3], taken[3], constrained[3], external[3], loaded[3], whole[3], arm[3], moment[3];
     double left[3];
     for (int i = 0; i < 3; i++)
         out_of_balance[i] = internal[i] - f[i] - r[i];
-    project_on_constrained(body->supports, node, out_of_balance, of_constraints);
-    take_link_forces(links, node, out_of_balance, of_constraints, left);
+    take_force(body->supports, by, node, out_of_balance, taken, left);
     for (int i = 0; i < 3; i++) {
-        r[i] += of_constraints[i];
+        r[i] += taken[i];
         external[i] = f[i] + r[i];
         loaded[i] = eigen ? f[i] + eigen[i] : f[i];
     }
@@ -526,7 +526,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
         tets.largest =
             (OstLinearity){.strain = result->newton.linear_strain, .rotation = result->newton.linear_rotation};
     }
-    LinkForces links = {.links = problem->supports->links};
+    Takers by = {NULL, NULL, NULL};
     /* What double precision attained, or the error of the answer made do with. */
     if (result->solve.rounding_limited || result->solve.stopped)
         requested = fmax(requested, result->solve.relative_residual);
@@ -542,9 +542,11 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     sums[SUM_WORK_SIZE] = sums[SUM_WORK_TERMS] = fabs(tets.eigen);
     if (problem->supports->spring)
         ost_spring_force(problem->supports, 1.0, result->displacement, result->reaction);
-    OST_TRY_DONE(find_link_forces(result, of_nodes.internal, &links));
+    OST_TRY_DONE(find_takers(problem, result, of_nodes.internal, &by));
     for (OstLocal n = 0; n < problem->mesh->owned_nodes; n++)
-        add_node(result, &body, &links, n, &of_nodes, sums);
+        add_node(result, &body, &by, n, &of_nodes, sums);
+    for (size_t i = 0; result->passed && by.passed && i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        result->passed[i] = by.passed[i];
     OST_TRY_DONE(ost_sum(ctx, SUM_COUNT, sums));
     OST_TRY_DONE(ost_guard_volume_error(problem, result, &volume));
     sums[SUM_RESIDUAL] += volume.force;
@@ -558,7 +560,7 @@ OstStatus ost_guard_after(const OstProblem *problem, double requested, const Ost
     if (checks->finite && !result->unfinished)
         OST_TRY_DONE(judge_errors(result, &body, &solved_for->errors, sums, requested));
 done:
-    OST_FREE(of_nodes.internal, of_nodes.magnitude, of_nodes.eigen, links.at_leaders);
+    OST_FREE(of_nodes.internal, of_nodes.magnitude, of_nodes.eigen, by.borne, by.passed, by.residual);
     ost_ledger_leave(ctx);
     return status;
 }

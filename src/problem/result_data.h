@@ -61,6 +61,8 @@ struct OstResult {
     double *internal;        /* 3 × owned_nodes: forces of the tets, where the solve has left them to the checks */
     double *force;           /* 3 × owned_nodes: the loads; NULL unless reached */
     double *reaction;        /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
+    double *passed;          /* 3 × owned_nodes: the part of it that links and moved couplings pass on, where a
+                                reaction is watched and there are such; or NULL */
     unsigned char *held;     /* node_count: along what each node is held (ost_supports_held), where a reaction is
                                 watched; or NULL */
     double *strain, *stress; /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */

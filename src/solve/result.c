@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/small.h"
 #include "problem/scene_data.h"
+#include "solve/distributing/distributing.h"
 
 #include <string.h>
 
@@ -48,6 +49,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->internal);
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
+    OST_FREE((*result)->passed);
     OST_FREE((*result)->held);
     OST_FREE((*result)->strain);
     OST_FREE((*result)->stress);
@@ -87,8 +89,11 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     const OstLocal nodes = result->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)nodes));
-    if (watches_reaction(problem))
+    if (watches_reaction(problem)) {
         OST_THEN(OST_NEW(ctx, &result->held, nodes));
+        if (problem->supports->links || ost_distributing_any(problem))
+            OST_THEN(OST_NEW(ctx, &result->passed, 3 * (size_t)result->mesh->owned_nodes));
+    }
     for (OstLocal n = 0; n < nodes && result->held && status == OST_SUCCESS; n++)
         result->held[n] = ost_supports_held(problem->supports, n);
     if (status == OST_SUCCESS)

@@ -50,17 +50,20 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
 }
 
 /* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. Of components
- * that are `shared` (ost_select_shared) others bear a part. */
+ * that are `shared` (ost_select_shared) others bear a part, and maybe all that is passed on. */
 static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, unsigned char shared,
                          double sum[3])
 {
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     const int turns = result->formulation != OST_FORMULATION_LINEAR;
+    const double is_passed = shared & OST_SHARED_BUT_PASSED ? 0.0 : 1.0;
     double arm[3], force[3], moment[3];
     for (int i = 0; i < 3; i++) {
+        const size_t n = 3 * (size_t)node + (size_t)i;
+        const double passed = result->passed ? result->passed[n] : 0.0;
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
-        force[i] = ost_selected_share(shared, i) * result->reaction[3 * (size_t)node + (size_t)i];
+        force[i] = ost_selected_share(shared, i) * (result->reaction[n] - passed) + is_passed * passed;
     }
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
@@ -112,19 +115,19 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     unsigned char *shared = NULL;
     double sum[3] = {0.0};
     int does_act = 0;
-    watched->tied = 0;
+    watched->in_doubt = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
     OstStatus status = ost_select_shared(scene->c, scene->mesh, result->held, count, nodes, &shared);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes) {
             add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
-            watched->tied |= (shared[nodes[n]] & OST_SHARED_WITH_TIE) != 0;
+            watched->in_doubt |= (shared[nodes[n]] & OST_SHARED_IN_DOUBT) != 0;
         }
     OST_THEN(acts(result, watch, count, nodes, shared, &watched->terms, &does_act));
     OST_FREE(shared);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));
-    OST_THEN(ost_max_ints(ctx, 1, &watched->tied));
+    OST_THEN(ost_max_ints(ctx, 1, &watched->in_doubt));
     OST_TRY(status);
     watched->value = component_of(sum, watch->component);
     watched->error = NAN;
@@ -198,8 +201,8 @@ static const char *why_no_energy(const OstScene *scene, const OstResult *result)
 
 static const char *why_no_reaction(const OstScene *scene, const OstResult *result, const OstWatched *watched)
 {
-    if (watched->tied)
-        return "a tie ends at its edge, and what it passes on there is part of the reaction";
+    if (watched->in_doubt)
+        return "at its edge two links meet, or one and springs: what each of them takes there cannot be told";
     if (scene->c->free_body)
         return "a free body has none";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
@@ -273,7 +276,7 @@ OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, con
         watched->error = result->interest.error;
     if (is_moved_by_coupling(scene) && (watch->kind == OST_WATCH_DISPLACEMENT || ost_watch_is_of_stress(watch)))
         watched->error = NAN;
-    if (watch->kind == OST_WATCH_REACTION && watched->tied && !watched->exact)
+    if (watch->kind == OST_WATCH_REACTION && watched->in_doubt && !watched->exact)
         watched->error = NAN;
     watched->why = isnan(watched->error) ? find_why(scene, result, watch, watched) : NULL;
     watched->exact = find_exact(watch, watched);
@@ -327,19 +330,25 @@ static OstStatus find_change(const OstScene *scene, const OstResult *result, con
     straight.reactions = NULL;
     straight.surplus = NULL;
     turned = straight;
-    turned.displacement = turned.reaction = NULL;
+    turned.displacement = turned.reaction = turned.passed = NULL;
     turned.formulation = OST_FORMULATION_CONSISTENT;
     OstStatus status = OST_NEW(ctx, &turned.displacement, nodes);
     OST_THEN(OST_NEW(ctx, &turned.reaction, owned));
+    if (result->passed)
+        OST_THEN(OST_NEW(ctx, &turned.passed, owned));
     status = ost_agree(ctx, status);
     for (size_t i = 0; i < nodes && status == OST_SUCCESS; i++)
         turned.displacement[i] = result->displacement[i] + result->left_out[i];
-    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
-        turned.reaction[i] = result->reaction[i] + (result->left_out_reaction ? result->left_out_reaction[i] : 0.0);
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++) {
+        const double added = result->left_out_reaction ? result->left_out_reaction[i] : 0.0;
+        turned.reaction[i] = result->reaction[i] + added;
+        if (turned.passed)
+            turned.passed[i] = result->passed[i] != 0.0 ? result->passed[i] + added : 0.0;
+    }
     OST_THEN(evaluate(scene, &straight, watch, &before));
     OST_THEN(evaluate(scene, &turned, watch, &after));
     OST_FREE(turned.displacement);
-    OST_FREE(turned.reaction);
+    OST_FREE(turned.reaction, turned.passed);
     OST_TRY(status);
     *change = after.value - before.value;
     return OST_SUCCESS;

@@ -221,19 +221,81 @@ def statics_alone_gives_reactions():
         check(known == set(exact), f"{known} are said to be exact, expected {exact}")
 
 
-def what_a_tie_passes_on_is_no_reaction():
-    """Beside its edge: nothing where nothing else is held, and no error is stated of a support that is."""
-    folder = new_folder()
-    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (2, 1, 1), (2, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (2, 2, 2), "b")])
-    text = TIED.replace("ORDER", "2").replace("LOAD", "total_force: [0, 0, 1]").replace("NU", "0.3").replace("watch:", """watch:
+SLID = """
+mesh: {file: two.msh}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 100, poissons_ratio: 0.3}]
+large_rotation: off
+constraints:
+  - {on: {boundary: a_xmin}, displacement: [0, 0, 0]}
+  - {on: {boundary: a_zmin}, slide: [0, 0, 1]}
+  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}
+loads: [{on: {boundary: b_zmax}, traction: [1, 2, 3]}]
+watch:
+  clamp: {reaction: {boundary: a_xmin}, component: z}
   slid: {reaction: {boundary: a_zmin}, component: z}
-  free: {reaction: {boundary: a_ymax}, component: x}""")
-    for ranks in fewer((1, 2)):
-        finished, report, _ = solve(text, ranks=ranks, folder=folder)
+  turned: {reaction: {boundary: a_zmin}, about: [0, 0, 0], component: y}
+  free: {reaction: {boundary: a_ymin}, component: x}
+  tie: {reaction: {boundary: b_xmin}, component: z}
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def what_a_tie_passes_on_is_no_reaction():
+    """Beside its edge a support bears what it bears where the meshes are merged, and as surely; nothing where none is."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (1, 1, 1), (2, 2, 2), "a"), ("b", (1, 0, 0), (1, 1, 1), (2, 2, 2), "b")])
+    merged = SLID.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", "")
+    _, expected, _ = solve(merged, folder=folder)
+    for ranks in fewer((1, 2, 3)):
+        finished, report, _ = solve(SLID, ranks=ranks, folder=folder)
         check(finished.exit_code == 0, finished.errors)
-        slid, free = report["watched"]["slid"], report["watched"]["free"]
-        check(slid["error"] is None and "a tie ends at its edge" in slid["error_not_known"], f"{slid}")
+        for name in ("clamp", "slid", "turned"):
+            of, one = report["watched"][name], expected["watched"][name]
+            near(of["value"], one["value"], 1e-8, f"{ranks} ranks: {name}")
+            near(of["error"], one["error"], 0.05, f"{ranks} ranks: the error of {name}")
+        free, tie = report["watched"]["free"], report["watched"]["tie"]
         check(free["value"] == free["error"] == 0, f"{free}")
+        near(tie["value"], -3, 1e-8, "what the tie passes on")  # all that acts on b
+    bed = SLID.replace("loads:", "springs: [{on: {boundary: a_ymin}, foundation: 5}]\nloads:").replace("ymin}, component: x", "ymin}, component: y")
+    report = solve(bed, folder=folder)[1]["watched"]
+    check(report["free"]["error"] is None and "and springs" in report["free"]["error_not_known"], f"a bed that ends at a tie: {report}")
+    moved = merged.replace("loads: [", "loads: [{on: {boundary: b_xmax}, distributing: {at: [2, 0.5, 0.5], displacement: [0.01, free, 0.02]}}, ")
+    moved = moved.replace("boundary: a_zmin", "boundary: [a_zmin, b_zmin]").replace("b_xmin", "b_xmax").replace("a_ymin", "b_ymin")
+    for ranks in fewer((1, 3)):
+        values = watched(moved, folder, (ranks,))
+        check(values["free"] == 0, f"what a coupling passes on: {values}")
+        check(abs(values["clamp"] + values["slid"] + values["tie"] + 3) < 1e-8, f"all of it: {values}")
+        check(abs(values["tie"]) > 0.1, f"the coupling's force: {values}")
+
+
+CELL_ON_A_PLANE = """
+mesh: {file: cell.msh}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 100, poissons_ratio: 0.3}]
+large_rotation: off
+constraints:
+  - {periodic: [[a_xmin, a_xmax]], strain: {xx: 0.01}}
+  - {on: {box: {min: [0, 0, 0], max: [0.9, 1, 0]}}, slide: [0, 0, 1]}
+  - {on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}
+  - {on: {nearest: [0, 1, 0]}, displacement: [0, free, 0]}
+loads: [{on: {boundary: a_zmax}, traction: [0, 0, 3]}]
+watch:
+  slid: {reaction: {boundary: a_zmin}, component: z}
+  across: {reaction: {boundary: a_zmin}, component: x}
+  along: {reaction: {boundary: a_xmax}, component: x}
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def what_periodic_faces_pass_on_is_no_reaction():
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "cell.msh"), [("a", (0, 0, 0), (1, 1, 1), (2, 2, 2), "a")])
+    for ranks in fewer((1, 3)):
+        values = watched(CELL_ON_A_PLANE, folder, (ranks,))
+        near(values["slid"], -3, 1e-8, "the force on the plane")
+        near(values["along"], 0.01 * 100 + 0.3 * 3, 1e-8, "the force on the cell's side")
+        check(abs(values["across"]) < 1e-8, f"{values}")
 
 
 def a_tie_joins_what_coincides():
@@ -367,6 +429,7 @@ load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
 what_a_tie_passes_on_is_no_reaction()
+what_periodic_faces_pass_on_is_no_reaction()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()

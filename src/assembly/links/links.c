@@ -34,6 +34,7 @@ void ost_links_destroy(OstLinks **links)
     if (!*links)
         return;
     OST_FREE((*links)->link);
+    OST_FREE((*links)->held);
     OST_FREE((*links)->of_node);
     OST_FREE((*links)->leads);
     OST_FREE((*links)->kept);
@@ -211,8 +212,18 @@ static OstStatus check_follower(const OstLinks *links, const Leading *leading, c
                     "one of them, or constrain those that it follows");
 }
 
+static OstStatus keep_held(OstLinks *links, const OstLink *link, int k, const double weight[9])
+{
+    OST_TRY(OST_GROW(links->ctx, &links->held, links->held_count + 1));
+    OstHeldWeight *held = &links->held[links->held_count++];
+    *held = (OstHeldWeight){.node = link->node, .leader = k};
+    for (int i = 0; i < 9; i++)
+        held->weight[i] = weight[i] - link->leader[k].weight[i];
+    return OST_SUCCESS;
+}
+
 /* The leaders' own supports: u = W (P v + g). */
-static OstStatus take_leader(const OstLinks *links, const Leading *leading, OstLink *link, int k)
+static OstStatus take_leader(OstLinks *links, const Leading *leading, OstLink *link, int k)
 {
     const Leading *of = &leading[link->slot[k]];
     double weight[9], moved[3];
@@ -225,7 +236,7 @@ static OstStatus take_leader(const OstLinks *links, const Leading *leading, OstL
     ost_apply3(weight, of->held.prescribed, moved);
     for (int i = 0; i < 3; i++)
         links->offset[3 * (size_t)link->node + (size_t)i] += moved[i];
-    return OST_SUCCESS;
+    return of->held.constrained ? keep_held(links, link, k, weight) : OST_SUCCESS;
 }
 
 /* Collective. Only own links: ghosts get theirs later. */
@@ -305,6 +316,37 @@ OstStatus ost_links_gather(const OstLinks *links, const double *force, double *o
             for (int c = 0; c < 3; c++)
                 of_leaders[3 * (size_t)link->slot[k] + (size_t)c] += part[c];
         }
+    }
+    return ost_agree(links->ctx, ost_halo_add_to_owners(links->halo, 3, of_leaders));
+}
+
+static OstLocal slot_of(const OstLinks *links, const OstHeldWeight *held)
+{
+    return ost_link_of(links, held->node)->slot[held->leader];
+}
+
+OstStatus ost_links_follow_held(const OstLinks *links, double *of_leaders, double *u)
+{
+    OST_TRY(ost_agree(links->ctx, ost_halo_import(links->halo, 3 * sizeof(double), of_leaders)));
+    for (OstLocal i = 0; i < links->held_count; i++) {
+        const OstHeldWeight *held = &links->held[i];
+        double moved[3];
+        ost_apply3(held->weight, of_leaders + 3 * (size_t)slot_of(links, held), moved);
+        for (int c = 0; c < 3; c++)
+            u[3 * (size_t)held->node + (size_t)c] += moved[c];
+    }
+    return OST_SUCCESS;
+}
+
+OstStatus ost_links_gather_held(const OstLinks *links, const double *force, double *of_leaders)
+{
+    memset(of_leaders, 0, 3 * (size_t)links->slots * sizeof *of_leaders);
+    for (OstLocal i = 0; i < links->held_count; i++) {
+        const OstHeldWeight *held = &links->held[i];
+        double part[3];
+        ost_apply3_transposed(held->weight, force + 3 * (size_t)held->node, part);
+        for (int c = 0; c < 3; c++)
+            of_leaders[3 * (size_t)slot_of(links, held) + (size_t)c] += part[c];
     }
     return ost_agree(links->ctx, ost_halo_add_to_owners(links->halo, 3, of_leaders));
 }

@@ -35,11 +35,20 @@ typedef struct OstRigidFace {
     int constrained[6];   /* displacement, rotation */
 } OstRigidFace;
 
+/* A weight on what a leader's support takes: W(I - P). */
+typedef struct OstHeldWeight {
+    OstLocal node; /* that follows */
+    int leader;
+    double weight[9];
+} OstHeldWeight;
+
 typedef struct OstLinks {
     OstContext *ctx;
     const OstMesh *mesh;
     OstLocal count, all, capacity; /* links of owned nodes; then of ghosts, once complete */
     OstLink *link;
+    OstLocal held_count;  /* of owned nodes: */
+    OstHeldWeight *held;  /* on leaders that are constrained */
     const char *path;     /* of the case, or NULL */
     int line;             /* where it states the links that are added */
     int between_meshes;   /* are these of a tie? */
@@ -84,6 +93,11 @@ OstStatus ost_links_follow(const OstLinks *links, double *of_leaders, double *u)
 /* Collective. W' f of the owned followers' forces (3 × owned_nodes), added up at their leaders: `of_leaders` has 3 ×
  * links->slots numbers, the owned nodes first. */
 OstStatus ost_links_gather(const OstLinks *links, const double *force, double *of_leaders);
+
+/* Collective. The same for W(I - P), which the leaders' supports take: nothing moves by it, but what is given at them
+ * acts there. */
+OstStatus ost_links_follow_held(const OstLinks *links, double *of_leaders, double *u);
+OstStatus ost_links_gather_held(const OstLinks *links, const double *force, double *of_leaders);
 
 /* Local. The link of a node, or NULL. `links` may be NULL. */
 static inline const OstLink *ost_link_of(const OstLinks *links, OstLocal node)

@@ -203,6 +203,8 @@ OstStatus ost_distributing_react(const OstProblem *problem, OstResult *result)
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++) {
         result->force[i] -= problem->driven[i];
         result->reaction[i] += problem->driven[i];
+        if (result->passed)
+            result->passed[i] += problem->driven[i];
     }
     return ost_halo_import(problem->mesh->halo, 3 * sizeof(double), result->reaction);
 }

@@ -165,14 +165,16 @@ static OstStatus is_static(const Search *search, int *yes)
     return OST_SUCCESS;
 }
 
-/* The work of the imbalance on the given motion where no support takes it: the field has no reaction there. With nodes
- * that follow others it has all that is out of balance. */
+/* The work of the imbalance on the given motion where no support takes it: the field has no reaction there. */
 static double work_beside_supports(const Search *search)
 {
     const OstProblem *problem = search->problem;
+    const OstLinks *links = problem->supports->links;
     double work = 0.0;
-    for (OstLocal node = 0; node < problem->mesh->owned_nodes && !problem->supports->links; node++) {
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         double projector[9], free_motion[3];
+        if (links && (links->leads[node] || links->of_node[node] >= 0)) /* with what is passed on it has all */
+            continue;
         ost_supports_get(problem->supports, node, projector, NULL);
         ost_apply3(projector, search->interest.moved + 3 * (size_t)node, free_motion);
         work += ost_dot3(free_motion, search->imbalance + 3 * (size_t)node);
