@@ -8,7 +8,7 @@
 #include "core/hash.h"
 #include "core/memory.h"
 #include "core/parallel/gather.h"
-#include "formats/serial/formats.h"
+#include "formats/mesh_formats.h"
 #include "formats/serial/input_file.h"
 
 #include <errno.h>
@@ -407,6 +407,12 @@ static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size
 {
     if (strcmp(path, "-") == 0)
         return read_stream(ctx, standard_input, stdin, bytes, size);
+    for (int f = 0; f < ost_mesh_format_count; f++)
+        if (ost_has_ending(path, ost_mesh_formats[f].ending))
+            return OST_RAISE(ctx, OST_INVALID_INPUT,
+                             "%s: a mesh; expected a case, a YAML file that names it, mesh: {file: %s} (orthostat mesh "
+                             "shows what a mesh holds)",
+                             path, path);
     FILE *file = fopen(path, "rb");
     if (!file)
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));

@@ -16,6 +16,7 @@ const OstMeshFormat ost_mesh_formats[] = {
     {".vtkhdf", 1, ost_vtk_read, NULL, ost_vtk_read_field},
     {".hdf", 1, ost_vtk_read, NULL, ost_vtk_read_field}, /* a VTKHDF file as ParaView 5.11 knows it */
     {".vtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
+    {".pvtu", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".vtk", 0, ost_vtk_read, NULL, ost_vtk_read_field},
     {".inp", 0, ost_abaqus_read, NULL, NULL},
     {".mesh", 0, ost_medit_read, NULL, NULL},
@@ -151,7 +152,6 @@ static const struct {
     {".poly", "TetGen's input", MESH_SURFACE},
     {".smesh", "TetGen's input", MESH_SURFACE},
     {".obj", "Wavefront", SURFACE_BY_MESHIO},
-    {".pvtu", "VTK in pieces", BY_PARAVIEW},
     {".vtm", "VTK in blocks", BY_PARAVIEW},
     {".vtp", "VTK polygons", BY_PARAVIEW},
     {".vti", "VTK images", BY_FILTER},

@@ -271,6 +271,8 @@ static void what_no_version_does_is_refused_in_words(void **state)
         "3:33: unknown field 'temperature'. Known: displacement, reaction, load, stress, node_stress, strain_tensor, "
         "strain_energy_density, "
         "axes, region, rank, error, tsai_wu_load_factor, ...");
+    assert_refused(CUBE STEEL "output: {fields: [strain]}\n",
+                   "3:19: unknown field 'strain'; did you mean 'strain_tensor'? Known: ...");
 }
 
 static void bad_settings_are_refused(void **state)

@@ -254,6 +254,16 @@ for kind, first, second, shared in ((12, CUBE, CUBE + (1, 0, 0), 4), (10, TET, n
         for numbered in (None, numbers):
             held = inspect(in_pieces("pieces" + ending, kind, [first, second], [[range(n)], [range(n)]], numbered))
             check(held["nodes"] == 2 * n - shared and len(held["components"]) == 1, f"{kind} {ending} {numbered}: {held}")
+        if ending == ".vtu": # a list of files has a piece in each
+            for part, points in (("first.vtu", first), ("second.vtu", second)):
+                in_pieces(part, kind, [points], [[range(n)]])
+            listed = '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="first.vtu"/><Piece Source="second.vtu"/></PUnstructuredGrid></VTKFile>'
+            held = inspect(write(folder, "parts.pvtu", listed))
+            check(held["nodes"] == 2 * n - shared and len(held["components"]) == 1, f"{kind} .pvtu: {held}")
+            solved = run("solve", "parts.pvtu", folder=folder)
+            check("parts.pvtu: a mesh; expected a case, a YAML file that names it, mesh: {file: parts.pvtu}" in solved.errors, solved.errors)
+            lost = run("mesh", write(folder, "lost.pvtu", listed.replace("second", "lost")), folder=folder)
+            check(lost.exit_code == 2 and "lost.pvtu:1: names a file that is to be read here: " in lost.errors, lost.errors)
         name = in_pieces("pieces" + ending, kind, [first, twice], [[range(n)], [range(n), range(n, 2 * n)]])
         refused = run("mesh", name, folder=folder)
         check(refused.exit_code == 2 and "GlobalNodeId" in refused.errors, f"{kind} {ending}: {refused.errors}")

@@ -140,6 +140,17 @@ run("mesh", "model.bdf", "--json", "model.json", folder=folder)
 check([(b["name"], b["count"]) for b in read_json(folder, "model.json")["boundaries"]] == [("rbe2-17", 2), ("rbe3-18", 2)],
       "the nodes of rigid elements")
 
+
+# A point of the body moves with its rigid element; what couples some directions alone has no line that does the same.
+said = warnings("some.bdf", BULK.replace("RBE2,17,9,123456,5,THRU,8,1.2-5", "RBE2,17,5,12,6,THRU,8"))
+check(("constraints", "{on: {boundary: rbe2-17}, rigid: [0, 0, 1]} # holds more: the model couples 12 alone") in told(said), said)
+run("mesh", "some.bdf", "--json", "some.json", folder=folder)
+top = read_json(folder, "some.json")["boundaries"][0]
+check((top["name"], round(top["area"], 6)) == ("rbe2-17", 1), top)
+said = warnings("some.inp", DECK.replace("*Kinematic\n", "*Kinematic\n1, 2\n6, 6\n"))
+check(told(said)[3][1].endswith("rigid: [0.5, 0.5, 3]} # holds more: the model couples 126 alone"), said)
+check("holds more" not in warnings("all.inp", DECK.replace("*Kinematic\n", "*Kinematic\n1, 3\n")), "all directions")
+
 # A surface of shells has both of their sides where none is named, one of solids those of their faces that no other has.
 FREE = """*NODE
 1,0,0,0

@@ -235,6 +235,8 @@ static void mistakes_are_named_with_file_and_line(void **state)
          "NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points><DataArray type=\"Float64\" format=\"binary\">AAAA",
          "neither zlib nor LZ4"},
         {"a.bdf", "GRID,1,,0.,0.,zero\n", "field 5 of GRID is 'zero'"},
+        {"a.bdf", "GRID           1              0.      0.    1234.5\n",
+         "field 6 of GRID is '.5', expected a coordinate system"},
         {"a.bdf", "GRID,1,3,0.,0.,0.\n", "coordinate system 3 is used, and no CORD2R"},
         {"a.bdf", "GRID,1,3,0.,0.,0.\nCORD2R,3,4,,,,,,1.\n,1.\nCORD2R,4,3,,,,,,1.\n,1.\n", "is based on itself"},
         {"a.bdf", "GRID,1,3,0.,0.,0.\nCORD2R,3,,,,,,,1.\n,,,2.\n", "system 3 lie on a line"},

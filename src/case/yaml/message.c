@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -106,7 +107,7 @@ static int edit_distance(const char *a, const char *b)
                 table[i][j] = i + j;
                 continue;
             }
-            int best = table[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            int best = table[i - 1][j - 1] + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
             best = table[i - 1][j] + 1 < best ? table[i - 1][j] + 1 : best;
             best = table[i][j - 1] + 1 < best ? table[i][j - 1] + 1 : best;
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && table[i - 2][j - 2] + 1 < best)

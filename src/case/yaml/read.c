@@ -53,6 +53,8 @@ static const char *word_for(const char *word, const char *const *names, int coun
         {"E", "youngs_modulus"},   {"nu", "poissons_ratio"},    {"G", "shear_modulus"},
         {"rho", "density"},        {"supports", "constraints"}, {"boundary_conditions", "constraints"},
         {"fixed", "displacement"}, {"direction", "fibre"},      {"thermal_expansion", "eigenstrain"},
+        {"max", "largest"},        {"maximum", "largest"},      {"min", "least"},
+        {"minimum", "least"},      {"strain", "strain_tensor"},
     };
     for (size_t o = 0; o < sizeof other / sizeof *other; o++)
         for (int n = 0; n < count && strcmp(word, other[o][0]) == 0; n++)
@@ -324,7 +326,7 @@ OstStatus ost_yaml_word(const OstYaml *yaml, const OstYamlNode *node, const char
             *which = w;
     if (*which >= 0)
         return OST_SUCCESS;
-    const char *nearest = ost_nearest_word(text, words, count);
+    const char *nearest = word_for(text, words, count);
     if (nearest)
         return ost_yaml_raise(yaml, node, "unknown %s '%.80s'; did you mean '%s'? Known: %s", what, text, nearest,
                               list);

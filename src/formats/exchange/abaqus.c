@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "formats/exchange/abaqus.h"
+#include "formats/serial/input_file.h"
 
 #include "core/error.h"
 #include "core/memory.h"
@@ -289,16 +290,6 @@ static int generates(const char *name)
 
 static OstStatus read_lines(OstInp *inp, OstLineReader *lines, int depth);
 
-/* Names of files are relative to the file that they are in. */
-static void join_path(const char *beside, const char *name, char path[PATH_MAX])
-{
-    const char *slash = strrchr(beside, '/');
-    if (name[0] == '/' || !slash)
-        snprintf(path, PATH_MAX, "%s", name);
-    else
-        snprintf(path, PATH_MAX, "%.*s/%s", (int)(slash - beside), beside, name);
-}
-
 static OstStatus include(OstInp *inp, const char *name, int depth)
 {
     char path[PATH_MAX];
@@ -306,7 +297,7 @@ static OstStatus include(OstInp *inp, const char *name, int depth)
     if (!name || depth == MOST_INCLUDES)
         return OST_RAISE_LINE(inp->lines,
                               name ? "files include each other more than 8 deep" : "*INCLUDE without INPUT=");
-    join_path(outer->path, name, path);
+    ost_file_beside(outer->path, name, path);
     if (ost_lines_open(inp->ctx, path, &lines) != OST_SUCCESS) {
         char reason[PATH_MAX + 128];
         snprintf(reason, sizeof reason, "%s", ost_error_text(inp->ctx));
@@ -359,6 +350,8 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword)
         return ost_inp_coupling(inp, keyword);
     if (strcmp(name, "ORIENTATION") == 0)
         return ost_inp_begin_orientation(inp, keyword);
+    if (strcmp(name, "KINEMATIC") == 0)
+        inp->block = OST_INP_KINEMATIC;
     if (strcmp(name, "DISTRIBUTING") == 0)
         ost_inp_distribute(inp);
     if (strcmp(name, "PART") == 0)
@@ -405,6 +398,9 @@ static OstStatus read_data_line(OstInp *inp)
         return ost_inp_instance_line(inp);
     case OST_INP_TIE:
         return ost_inp_tie_line(inp);
+    case OST_INP_KINEMATIC:
+        ost_inp_kinematic_line(inp);
+        return OST_SUCCESS;
     case OST_INP_ORIENTATION:
         ost_inp_orientation_line(inp);
         return OST_SUCCESS;

@@ -18,6 +18,7 @@ typedef enum {
     OST_INP_INSTANCE,
     OST_INP_SYSTEM,
     OST_INP_TIE,
+    OST_INP_KINEMATIC,
     OST_INP_ORIENTATION
 } OstInpBlock;
 
@@ -49,6 +50,7 @@ typedef struct OstInpJoin {
     OstInpJoinKind kind;
     char on[OST_INP_WORD], to[OST_INP_WORD];
     double tolerance;
+    char directions[8]; /* digits of those that *KINEMATIC names; "" for all */
 } OstInpJoin;
 
 /* Material axes: two or three points of a system, and the turn about one of its axes; and the section that has them. */
@@ -134,6 +136,7 @@ OstStatus ost_inp_pass(OstInp *inp, const OstInpKeyword *keyword);
 OstStatus ost_inp_begin_tie(OstInp *inp, const OstInpKeyword *keyword);
 OstStatus ost_inp_tie_line(OstInp *inp);
 OstStatus ost_inp_coupling(OstInp *inp, const OstInpKeyword *keyword);
+void ost_inp_kinematic_line(OstInp *inp);
 void ost_inp_distribute(OstInp *inp);
 OstStatus ost_inp_begin_orientation(OstInp *inp, const OstInpKeyword *keyword);
 void ost_inp_orientation_line(OstInp *inp);

@@ -93,6 +93,19 @@ void ost_inp_distribute(OstInp *inp)
         inp->join[inp->join_count - 1].kind = OST_INP_DISTRIBUTED;
 }
 
+/* The first of some directions, and the last. */
+void ost_inp_kinematic_line(OstInp *inp)
+{
+    char first[OST_INP_WORD], last[OST_INP_WORD];
+    ost_inp_word(inp->lines, first);
+    ost_inp_word(inp->lines, last);
+    OstInpJoin *join = inp->join_count > 0 ? &inp->join[inp->join_count - 1] : NULL;
+    const int from = atoi(first), to = last[0] ? atoi(last) : from;
+    for (int d = from > 0 ? from : 1; join && d <= to && d <= 6; d++)
+        if (!strchr(join->directions, '0' + d))
+            ost_append(join->directions, sizeof join->directions, "%d", d);
+}
+
 OstStatus ost_inp_begin_orientation(OstInp *inp, const OstInpKeyword *keyword)
 {
     const char *system = ost_inp_value(keyword, "SYSTEM"), *by = ost_inp_value(keyword, "DEFINITION");
@@ -187,7 +200,8 @@ static void tell_coupling(OstInp *inp, const OstInpJoin *join)
     const double *x = find_point(inp, join->to);
     if (x)
         snprintf(at, sizeof at, "[%.7g, %.7g, %.7g]", x[0], x[1], x[2]);
-    ost_passed_point(&inp->passed, boundary_name(inp, join->on, on), at, join->kind == OST_INP_DISTRIBUTED);
+    ost_passed_point(&inp->passed, boundary_name(inp, join->on, on), at, join->kind == OST_INP_DISTRIBUTED,
+                     join->directions);
 }
 
 /* e1 goes through the first point, the second lies in the plane of e1 and e2; then they turn about one of them. */

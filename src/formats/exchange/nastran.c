@@ -30,6 +30,7 @@ typedef struct Placed {
 /* An RBE2 or RBE3: the point whose motion, or mean motion, its set of nodes has. */
 typedef struct Rigid {
     int set, in_the_mean;
+    char directions[8];
     OstGlobal point;
 } Rigid;
 
@@ -65,6 +66,8 @@ static OstStatus read_grid(Nastran *nastran)
 {
     OstGlobal label = 0, system = nastran->default_system;
     double x[3] = {0.0};
+    if (ost_nastran_field(&nastran->card, 5)[0]) /* of its displacement; a coordinate that is out of place ends here */
+        OST_TRY(ost_nastran_integer(&nastran->card, "a coordinate system, or the columns are shifted", 5, &label));
     OST_TRY(ost_nastran_integer(&nastran->card, "the number of a node", 0, &label));
     if (ost_nastran_field(&nastran->card, 1)[0])
         OST_TRY(ost_nastran_integer(&nastran->card, "a coordinate system", 1, &system));
@@ -258,6 +261,8 @@ static OstStatus read_rigid(Nastran *nastran, int in_the_mean)
     OST_TRY(ost_nastran_integer(&nastran->card, "a node", in_the_mean ? 2 : 1, &rigid.point));
     snprintf(name, sizeof name, "%s-%" PRId64, in_the_mean ? "rbe3" : "rbe2", label);
     OST_TRY(ost_cells_set(&nastran->cells, OST_SET_OF_NODES, name, &rigid.set));
+    if (!in_the_mean)
+        snprintf(rigid.directions, sizeof rigid.directions, "%.7s", ost_nastran_field(&nastran->card, 2));
     for (int f = in_the_mean ? 4 : 3; f < nastran->card.fields; f++) {
         const char *text = ost_nastran_field(&nastran->card, f);
         if (isalpha((unsigned char)text[0])) /* UM, ALPHA */
@@ -268,6 +273,31 @@ static OstStatus read_rigid(Nastran *nastran, int in_the_mean)
             OST_TRY(put_nodes(nastran, rigid.set, &f));
     }
     nastran->rigid[nastran->rigid_count++] = rigid;
+    return OST_SUCCESS;
+}
+
+/* Is it a node of a solid? */
+static int is_in_body(const OstCells *cells, OstGlobal node)
+{
+    for (int k = 0; k < OST_CELL_KINDS; k++) {
+        const OstCellList *list = &cells->list[k];
+        const size_t count =
+            ost_cell_facts[k].dimension == 3 ? (size_t)list->count * (size_t)ost_cell_facts[k].nodes : 0;
+        for (size_t n = 0; n < count; n++)
+            if (list->nodes[n] == node)
+                return 1;
+    }
+    return 0;
+}
+
+/* A rigid element moves its point too, which may be a node of the body. */
+static OstStatus add_points(Nastran *nastran)
+{
+    for (int r = 0; r < nastran->rigid_count; r++) {
+        const Rigid *rigid = &nastran->rigid[r];
+        if (!rigid->in_the_mean && is_in_body(&nastran->cells, rigid->point))
+            OST_TRY(ost_cells_put(&nastran->cells, rigid->set, rigid->point));
+    }
     return OST_SUCCESS;
 }
 
@@ -283,7 +313,7 @@ static void warn_passed(Nastran *nastran)
                 const double *x = chunk->coordinates + 3 * (size_t)n;
                 snprintf(at, sizeof at, "[%.7g, %.7g, %.7g]", x[0], x[1], x[2]);
             }
-        ost_passed_point(&nastran->passed, on, at, rigid->in_the_mean);
+        ost_passed_point(&nastran->passed, on, at, rigid->in_the_mean, rigid->directions);
     }
     ost_passed_warn(nastran->card.cursor.ctx, nastran->cells.path, &nastran->passed);
 }
@@ -493,6 +523,7 @@ OstStatus ost_nastran_read(OstContext *ctx, const char *path, OstMeshChunk **chu
     OST_THEN(ost_msh_open(ctx, path, &nastran.card.cursor));
     OST_THEN(read_lines(&nastran));
     OST_THEN(place_nodes(&nastran));
+    OST_THEN(add_points(&nastran));
     if (status == OST_SUCCESS)
         warn_passed(&nastran);
     OST_FREE(nastran.card.field, nastran.systems.system, nastran.place, nastran.passed.word);

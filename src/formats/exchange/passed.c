@@ -63,12 +63,17 @@ void ost_passed_line(OstPassed *passed, const char *format, ...)
     }
 }
 
-void ost_passed_point(OstPassed *passed, const char *boundary, const char *at, int in_the_mean)
+void ost_passed_point(OstPassed *passed, const char *boundary, const char *at, int in_the_mean, const char *directions)
 {
+    const int all = !directions[0] || (strchr(directions, '1') && strchr(directions, '2') && strchr(directions, '3'));
     if (in_the_mean)
         ost_passed_line(passed, "\n  loads: - {on: {boundary: %s}, total_force: [fx, fy, fz], at: %s}", boundary, at);
-    else
+    else if (all)
         ost_passed_line(passed, "\n  constraints: - {on: {boundary: %s}, rigid: %s}", boundary, at);
+    else
+        ost_passed_line(passed,
+                        "\n  constraints: - {on: {boundary: %s}, rigid: %s} # holds more: the model couples %s alone",
+                        boundary, at, directions);
 }
 
 const char *ost_yaml_name(const char *name, char text[OST_YAML_NAME])

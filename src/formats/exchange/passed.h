@@ -30,8 +30,9 @@ OstStatus ost_passed_take(OstContext *ctx, const OstPassedWay *ways, size_t coun
 /* Local. Adds a line for the case file. */
 void ost_passed_line(OstPassed *passed, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Local. Adds the line of a boundary that moves with a point, or in the mean with it, at `at`. */
-void ost_passed_point(OstPassed *passed, const char *boundary, const char *at, int in_the_mean);
+/* Local. Adds the line of a boundary that moves with a point, or in the mean with it, at `at`. `directions`: the digits
+ * of those that the model couples, "" for all; where one of 1, 2 and 3 is missing the line says that it holds more. */
+void ost_passed_point(OstPassed *passed, const char *boundary, const char *at, int in_the_mean, const char *directions);
 
 /* Local. A name as YAML has it: in quotes where it needs them. */
 enum { OST_YAML_NAME = 300 };

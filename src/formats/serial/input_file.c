@@ -28,6 +28,15 @@ OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGloba
     return OST_SUCCESS;
 }
 
+void ost_file_beside(const char *path, const char *name, char beside[PATH_MAX])
+{
+    const char *slash = strrchr(path, '/');
+    if (name[0] == '/' || !slash)
+        snprintf(beside, PATH_MAX, "%s", name);
+    else
+        snprintf(beside, PATH_MAX, "%.*s/%s", (int)(slash - path), path, name);
+}
+
 int ost_has_ending(const char *path, const char *ending)
 {
     const size_t length = strlen(path), tail = strlen(ending);

@@ -4,6 +4,7 @@
 
 #include "orthostat/context.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -11,6 +12,9 @@
 
 /* Local. Opens a regular file for reading; fills its size. */
 OstStatus ost_file_open(OstContext *ctx, const char *path, FILE **file, OstGlobal *bytes);
+
+/* Local. The path of a file that another one names: relative to that one's folder. */
+void ost_file_beside(const char *path, const char *name, char beside[PATH_MAX]);
 
 /* Local. Does a path end in `ending`, in upper or lower case? */
 int ost_has_ending(const char *path, const char *ending);

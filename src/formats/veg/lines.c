@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/input_file.h"
 #include "formats/veg/veg.h"
 
 #include <string.h>
@@ -81,21 +82,15 @@ static OstStatus include(OstVeg *veg)
 {
     const OstLineReader *reader = ost_veg_reader(veg);
     const char *name = reader->next + strspn(reader->next, " \t");
-    const char *slash = strrchr(reader->path, '/');
-    const size_t folder = slash && name[0] != '/' ? (size_t)(slash - reader->path) + 1 : 0;
-    char *path = NULL;
+    char path[PATH_MAX];
     if (*name == '\0')
         return OST_RAISE_LINE(reader, "*INCLUDE without the name of a file");
     if (veg->depth == OST_VEG_DEPTH || veg->included == MOST_INCLUDES)
         return OST_RAISE_LINE(reader, "files include files more than %d deep, or more than %d in all",
                               (int)OST_VEG_DEPTH, (int)MOST_INCLUDES);
     veg->included++;
-    OST_TRY(OST_NEW(veg->ctx, &path, folder + strlen(name) + 1));
-    memcpy(path, reader->path, folder);
-    strcpy(path + folder, name);
-    const OstStatus status = enter(veg, path);
-    OST_FREE(path);
-    return status;
+    ost_file_beside(reader->path, name, path);
+    return enter(veg, path);
 }
 
 static int is_include(const OstLineReader *reader)

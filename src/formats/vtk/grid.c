@@ -315,8 +315,9 @@ static OstStatus read_text_or_xml(OstVtkGrid *grid)
     OstMshCursor cursor;
     OST_TRY(ost_msh_open(grid->ctx, grid->path, &cursor));
     grid->by_meshio = ost_vtk_is_by_meshio(&cursor);
-    const OstStatus status =
-        ost_has_ending(grid->path, ".vtu") ? ost_vtk_xml_grid(&cursor, grid) : ost_vtk_legacy_grid(&cursor, grid);
+    const OstStatus status = ost_has_ending(grid->path, ".vtu")    ? ost_vtk_xml_grid(&cursor, grid)
+                             : ost_has_ending(grid->path, ".pvtu") ? ost_vtk_parallel_grid(&cursor, grid)
+                                                                   : ost_vtk_legacy_grid(&cursor, grid);
     ost_msh_close(&cursor);
     return status;
 }

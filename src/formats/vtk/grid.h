@@ -50,6 +50,7 @@ typedef struct OstVtkGrid {
 /* Local. Read a file into an empty grid; clear it even after a failure. */
 OstStatus ost_vtk_legacy_grid(OstMshCursor *cursor, OstVtkGrid *grid);
 OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid);
+OstStatus ost_vtk_parallel_grid(OstMshCursor *cursor, OstVtkGrid *grid); /* .pvtu: a list of .vtu */
 OstStatus ost_vtk_hdf_grid(OstVtkGrid *grid);
 void ost_vtk_clear(OstVtkGrid *grid);
 

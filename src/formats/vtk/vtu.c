@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
 #include "core/memory.h"
+#include "formats/serial/input_file.h"
 #include "formats/vtk/xml.h"
 
 #include <ctype.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -265,4 +267,38 @@ OstStatus ost_vtk_xml_grid(OstMshCursor *cursor, OstVtkGrid *grid)
             return end_piece(&vtu);
         OST_TRY(read_tag(&vtu, &tag));
     }
+}
+
+static OstStatus read_part(OstMshCursor *list, const OstXmlTag *tag, OstVtkGrid *grid)
+{
+    char path[PATH_MAX], reason[PATH_MAX + 128];
+    OstMshCursor cursor;
+    const char *name = ost_xml_value(tag, "Source");
+    if (!name)
+        return OST_RAISE_MSH(list, "<Piece Source=\"part.vtu\"> is expected");
+    ost_file_beside(list->path, name, path);
+    if (ost_msh_open(list->ctx, path, &cursor) != OST_SUCCESS) {
+        snprintf(reason, sizeof reason, "%s", ost_error_text(list->ctx));
+        return OST_RAISE_MSH(list, "names a file that is to be read here: %s", reason);
+    }
+    grid->by_meshio |= ost_vtk_is_by_meshio(&cursor);
+    const OstStatus status = ost_vtk_xml_grid(&cursor, grid);
+    ost_msh_close(&cursor);
+    return status;
+}
+
+OstStatus ost_vtk_parallel_grid(OstMshCursor *cursor, OstVtkGrid *grid)
+{
+    OstXmlTag tag;
+    int found = 0;
+    OST_TRY(ost_xml_next(cursor, &tag, &found));
+    const char *type = found ? ost_xml_value(&tag, "type") : NULL;
+    if (!type || strcmp(type, "PUnstructuredGrid") != 0)
+        return OST_RAISE_MSH(cursor, "<VTKFile type=\"PUnstructuredGrid\"> is expected");
+    while (found) {
+        if (strcmp(tag.name, "Piece") == 0 && tag.closes != 1)
+            OST_TRY(read_part(cursor, &tag, grid));
+        OST_TRY(ost_xml_next(cursor, &tag, &found));
+    }
+    return OST_SUCCESS;
 }
