@@ -95,8 +95,10 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
     OstSolverOptions options;
     for (;; method++) {
         const double start = ost_own_seconds(solver->ctx);
-        ost_solver_strategy_options(&solver->plan.options, method, &options);
-        options.precise = solver->precise;
+        OstSolverOptions planned = solver->plan.options;
+        planned.precise = solver->precise;
+        planned.fine = solver->fine;
+        ost_solver_strategy_options(&planned, method, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
         const OstStatus status = set_up(solver, &options);
         ost_ledger_leave(solver->ctx);
@@ -198,7 +200,7 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
     OstSolverFacts facts = facts_of(solver);
     facts.repeated |= repeated;
     OstStatus status = OST_SUCCESS;
-    solver->steps = solver->singular = 0;
+    solver->steps = solver->singular = solver->fine = 0;
     OST_TRY(ost_geometry_renew(&solver->geometry));
     OST_TRY(measure(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
@@ -319,11 +321,12 @@ static int may_be_precise(const OstSolver *solver, const OstGoal *goal)
 }
 
 /* Is there a next strategy that could succeed? */
-static int should_change(const OstSolver *solver, const OstGoal *goal)
+static int should_change(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report)
 {
+    const int has_another = solver->fine && ost_solver_fastest(solver, report) != OST_METHOD_AUTO;
     const int fails = goal->end == OST_END_PRECONDITIONER || goal->end == OST_END_STALLED;
     const int mendable = goal->end == OST_END_SLOW || (fails && !solver->aim.probing);
-    const int is_last = goal->patience == 0; /* no other is left, or it is the user's */
+    const int is_last = goal->patience == 0 && !has_another; /* no other is left, or it is the user's */
     const int may = (may_change(solver) && !is_last) || may_be_precise(solver, goal);
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
@@ -333,20 +336,21 @@ static int is_singular(const OstSolver *solver, const OstGoal *goal)
     return goal->singular || solver->singular;
 }
 
-/* Builds the next strategy, or the same one with more digits; if memory does not allow it, the one that converged
- * fastest so far. */
+/* Builds the next strategy, or the same one with more digits; if memory does not allow it, one that goes on. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
     const int again = may_be_precise(solver, goal);
     const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
     solver->precise |= again;
     goal->scale = 0.0;
-    OstStatus status = build(solver, next, report->step, &report->steps);
+    OstStatus status = OST_OUT_OF_MEMORY;
+    if (!solver->fine || again)
+        status = build(solver, next, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
     if (is_singular(solver, goal))
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
-    const OstMethod best = ost_solver_fastest(solver, report);
+    const OstMethod best = ost_solver_choose_last(solver, report);
     if (best == OST_METHOD_AUTO)
         return status;
     goal->patience = 0; /* there is no other to change to */
@@ -357,9 +361,9 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
 
 static OstStatus run_strategies(OstSolver *solver, const double *f, double *u, OstGoal *goal, OstSolveReport *report)
 {
-    goal->patience = may_change(solver) ? solver->plan.options.patience : 0;
+    goal->patience = may_change(solver) && !solver->fine ? solver->plan.options.patience : 0;
     OST_TRY(work(solver, f, u, goal, report));
-    while (should_change(solver, goal)) {
+    while (should_change(solver, goal, report)) {
         OST_TRY(take_next(solver, goal, report));
         OST_TRY(work(solver, f, u, goal, report));
     }

@@ -19,6 +19,7 @@ struct OstSolver {
     int aged;                /* have the matrix's values changed since the current strategy was built? */
     int is_shared;           /* are strategy and map another solver's? */
     int precise;             /* has single precision been found too little for the coarse levels? */
+    int fine;                /* is the current strategy the last one: small aggregates on all levels? */
     unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
     int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
     int singular;            /* has a strategy found its factors, and so the stiffness, singular to rounding? */
@@ -56,6 +57,9 @@ OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u
 /* Local. The method to go on with where no next one can be built: that which has converged fastest, for what an
  * iteration costs; AUTO if none has come so far. */
 OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *report);
+
+/* Local. The same, but STRONG with small aggregates on all levels comes first, of which solver->fine tells. */
+OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report);
 
 /* Local. Says that no other strategy is left, and what this one costs. */
 void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report);

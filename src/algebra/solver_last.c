@@ -36,6 +36,13 @@ OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *repo
     return found != OST_METHOD_AUTO ? found : fastest_but(report, solver->broken);
 }
 
+OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report)
+{
+    const OstMethod fastest = ost_solver_fastest(solver, report);
+    solver->fine = fastest != OST_METHOD_AUTO && !solver->fine && !solver->saddle;
+    return solver->fine ? OST_METHOD_STRONG : fastest;
+}
+
 void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report)
 {
     for (int s = report->steps - 1; s >= 0; s--) {

@@ -89,10 +89,10 @@ void ost_solver_strategy_options(const OstSolverOptions *planned, OstMethod meth
         options->smoother_degree = STRONG_DEGREE;
     if (!(planned->given & OST_GIVEN_RATIO) && planned->smoother_ratio < strong_ratio)
         options->smoother_ratio = strong_ratio;
-    if (method == OST_METHOD_STRONG)
+    if (method == OST_METHOD_STRONG && !planned->fine)
         return;
     if (!(planned->given & OST_GIVEN_AGGREGATE))
         options->aggregate_nodes = two_level_aggregate;
-    if (options->most_levels > 2)
+    if (method == OST_METHOD_TWO_LEVEL && options->most_levels > 2)
         options->most_levels = 2;
 }

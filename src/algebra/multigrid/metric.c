@@ -288,6 +288,8 @@ OstStatus ost_metric_create(const OstBlockMatrix *matrix, const OstSolverGeometr
     else
         OST_TRY_DONE(build_alone(made, geometry, &levels));
     OST_TRY_DONE(ost_cycle_create(ctx, &levels, &quadratic, &made->options, &made->cycle));
+    if (options->method == OST_METHOD_STRONG)
+        ost_cycle_strengthen(made->cycle, 0, made->options.smoother_ratio);
 done:
     ost_quadratic_level_destroy(&quadratic);
     ost_levels_clear(&levels);
