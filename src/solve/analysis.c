@@ -114,7 +114,16 @@ OstStatus ost_analysis_make_common(OstAnalysis *analysis, unsigned fields)
 OstStatus ost_analysis_find_buckling(const OstAnalysis *analysis, OstResult *result)
 {
     const OstLinear *linear = analysis->work;
-    if (analysis->problem->buckling_modes == 0 || !result->reached)
+    const OstProblem *problem = analysis->problem;
+    if (problem->c && problem->c->buckling_modes > problem->buckling_modes)
+        ost_warn(analysis->ctx, "no buckling modes are looked for: %s",
+                 ost_effect_state(problem->effects, OST_EFFECT_BUCKLING)->reason);
+    if (problem->buckling_modes > 0 && !problem->conservative) {
+        ost_warn(analysis->ctx, "no buckling modes are looked for: the pressure follows a surface with a free rim, so "
+                                "that no energy tells where the body leaves its state at rest");
+        return OST_SUCCESS;
+    }
+    if (problem->buckling_modes == 0 || !result->reached)
         return OST_SUCCESS;
     return ost_buckling_find(analysis->problem, linear->stiffness.solver, result);
 }

@@ -44,8 +44,6 @@ static OstStatus find(const OstProblem *problem, OstSolver *solver, OstResult *r
 
 OstStatus ost_buckling_find(const OstProblem *problem, OstSolver *solver, OstResult *result)
 {
-    if (problem->pressures)
-        return OST_SUCCESS;
     ost_ledger_enter(problem->ctx, OST_EFFECT_BUCKLING);
     const double before = ost_seconds();
     const OstStatus status = find(problem, solver, result);
@@ -115,7 +113,7 @@ OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstRe
         .modes = 1, .tolerance = crude, .least = 1.0 / ost_near_buckling, .most_iterations = MOST_TO_JUDGE};
     OstModes modes;
     int may = 0;
-    if (problem->pressures)
+    if (!problem->conservative) /* no energy tells: it may begin to move long before */
         return OST_SUCCESS;
     if (!result->buckling.known) {
         OST_TRY(may_buckle(problem, result, &may));
@@ -124,6 +122,10 @@ OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstRe
         OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
         if (!(modes.softening[0] >= aim.least))
             return OST_SUCCESS;
+        if (problem->pressures) { /* they may hold the body: Newton's method tells */
+            result->newton.linear_error = fmax(result->newton.linear_error, modes.softening[0]);
+            return OST_SUCCESS;
+        }
         take(&modes, result);
     }
     if (result->buckling.factor[0] < ost_near_buckling)

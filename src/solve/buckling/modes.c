@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* One mode more is looked for than is asked for: those asked for are then found sooner. */
+/* Where modes are asked for, one more is looked for: those asked for are then found sooner. */
 enum { SPARE = 1, BLOCK = OST_MOST_BUCKLING_MODES + SPARE, MOST = 3 * BLOCK };
 
 /* The subspace: columns of modes, of preconditioned residuals, and of the last change of the modes; of each the vector
@@ -246,19 +246,24 @@ static OstStatus find_residuals(Search *search)
     return OST_SUCCESS;
 }
 
-/* Before so many iterations a motion that the start has little of may not have come up. */
-enum { FEWEST = 4 };
+/* A motion of which the start has this share would have come up if it were as soft as `least`: each iteration makes
+ * more of it beside what is there, by the ratio of both at the least. */
+static const double hidden = 1e-5;
+
+static int is_ruled_out(const Search *search, double least, int iterations)
+{
+    const double most = fabs(search->value[0]) + 2.0 * search->residual[0];
+    return most < least && pow(most / least, iterations) < hidden;
+}
 
 static int is_done(const Search *search, const OstModesAim *aim, int iterations)
 {
-    if (iterations < FEWEST)
-        return 0;
-    if (search->value[0] + 4.0 * search->residual[0] < aim->least)
+    if (aim->least > 0.0 && is_ruled_out(search, aim->least, iterations))
         return 1;
     for (int c = 0; c < aim->modes; c++)
         if (!(search->residual[c] <= aim->tolerance * fabs(search->value[c])))
             return 0;
-    return 1;
+    return iterations > 1;
 }
 
 static OstStatus iterate(Search *search, const OstModesAim *aim, OstModes *modes)
@@ -298,7 +303,7 @@ OstStatus ost_modes_find(const OstProblem *problem, OstSolver *solver, const Ost
     Search search = {.problem = problem,
                      .solver = solver,
                      .result = result,
-                     .block = aim->modes + SPARE,
+                     .block = aim->modes + (aim->least > 0.0 ? 0 : SPARE),
                      .n = 3 * (size_t)problem->system->matrix->rows};
     *modes = (OstModes){.count = aim->modes};
     OstStatus status = allocate(&search);
