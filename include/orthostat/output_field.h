@@ -34,10 +34,15 @@ OST_API_BEGIN
     X(OST_FIELD_E1, "e1")                                       \
     X(OST_FIELD_E2, "e2")                                       \
     X(OST_FIELD_E3, "e3")                                       \
-    X(OST_FIELD_MIXED_PRESSURE, "mixed_pressure")
+    X(OST_FIELD_MIXED_PRESSURE, "mixed_pressure")               \
+    X(OST_FIELD_BUCKLING_MODE_1, "buckling_mode_1")             \
+    X(OST_FIELD_BUCKLING_MODE_2, "buckling_mode_2")             \
+    X(OST_FIELD_BUCKLING_MODE_3, "buckling_mode_3")
 #define OST_OUTPUT_FIELD_ENUM(name, word) name,
 typedef enum { OST_OUTPUT_FIELD_TABLE(OST_OUTPUT_FIELD_ENUM) OST_FIELD_COUNT } OstOutputFieldBit;
 #undef OST_OUTPUT_FIELD_ENUM
+
+enum { OST_MOST_BUCKLING_MODES = 1 + OST_FIELD_BUCKLING_MODE_3 - OST_FIELD_BUCKLING_MODE_1 };
 
 /* Bits of those that are written unless a case says which: up to the load factors, which are there where a material
  * states strengths. The others follow from them, and are made if asked for. */

@@ -81,6 +81,17 @@ typedef struct OstAnswerError {
                         were curved where faces meet at less than 40 degrees */
 } OstAnswerError;
 
+/* The load factors at which a body buckles by linear theory: its stiffness, and the stress of the linear answer times
+ * such a factor, have a motion that costs no energy. */
+typedef struct OstBuckling {
+    int known;                              /* 0: not looked for, or not found because it does not matter */
+    int count;                              /* of load factors */
+    double factor[OST_MOST_BUCKLING_MODES]; /* the lowest first; INFINITY: however much the load grows, it does not */
+    int iterations;
+    int converged; /* else the true factors may be lower */
+    double seconds;
+} OstBuckling;
+
 /* Where the body is nearest to failure by one criterion: by how much the load may grow until the mean stress of a tet
  * fails (OST_MOST_LOAD_FACTOR: nowhere), and which tet that is. */
 typedef struct OstLeastFactor {
@@ -108,6 +119,7 @@ const char *ost_result_objection(const OstResult *result, int number);
 /* Local. The fields, which live as long as the result; NULL where a field was not asked for, or not reached. Units are
  * the user's. Symmetric tensors are 11 22 33 12 23 31 in world axes. Strains have engineering shear: 2 e12, 2 e23, 2
  * e31; the file of fields has the tensor, with e12, e23, e31. */
+const OstBuckling *ost_result_buckling(const OstResult *result);
 const double *ost_result_displacement(const OstResult *result); /* node_count × 3, ghosts included */
 const double *ost_result_reaction(const OstResult *result);     /* node_count × 3, 0 where nothing constrains */
 const double *ost_result_load(const OstResult *result);         /* owned_nodes × 3: the forces on the nodes */

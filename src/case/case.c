@@ -187,6 +187,7 @@ enum {
     PATH,
     LARGE_ROTATION,
     FORMULATION,
+    BUCKLING,
     VERIFY,
     SWEEP,
     CASES,
@@ -210,6 +211,7 @@ static const struct {
     [PATH] = {.name = "path", .read = ost_read_load_path},
     [LARGE_ROTATION] = {.name = "large_rotation", .read = ost_read_large_rotation},
     [FORMULATION] = {.name = "formulation", .read = ost_read_formulation},
+    [BUCKLING] = {.name = "buckling", .read = ost_read_buckling},
     [VERIFY] = {.name = "verify", .read = ost_read_verify},
     [SWEEP] = {.name = "sweep", .read = ost_read_sweep},
     [CASES] = {.name = "cases"},
@@ -223,6 +225,7 @@ static OstStatus settle(const OstYaml *yaml, const OstYamlKey *keys, OstCase *c)
                               "nothing holds a free body, and springs would; leave out these, or free_body");
     OST_TRY(check_materials(yaml, c));
     OST_TRY(settle_large_rotation(yaml, &keys[LARGE_ROTATION], &keys[FORMULATION], c));
+    OST_TRY(ost_settle_buckling(yaml, keys[BUCKLING].value, c));
     OST_TRY(check_path(yaml, keys[PATH].value, c));
     OST_TRY(check_load_cases(yaml, keys[CASES].value, c));
     OST_TRY(ost_check_envelope(yaml, keys[CASES].value, keys[OUTPUT].value, c));

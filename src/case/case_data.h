@@ -258,6 +258,7 @@ struct OstCase {
     int spring_count;
     OstSpring *springs;
     OstLargeRotation large_rotation;
+    int buckling_modes; /* asked for; 0: none */
     OstFormulation formulation; /* of large rotations */
     int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
     double *path_times;         /* of the outputs, ascending, not negative */
@@ -286,7 +287,7 @@ struct OstCase {
     OstLoadCase *load_cases;
     int sweep_count; /* of keys */
     OstSweepKey *sweep;
-    unsigned without; /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    uint64_t without; /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 };
 
 /* The text of a case, and changes to it (case/yaml/set.h). */

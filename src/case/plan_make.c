@@ -165,6 +165,7 @@ static OstEffectFacts state_facts(const OstCase *c, const OstPlanMesh *mesh, con
                             .close_welded = (mesh->welded & OST_WELDED_CLOSE) != 0,
                             .merge = c->merge,
                             .without = c->without,
+                            .buckling = c->buckling_modes,
                             .large_rotation = c->large_rotation == OST_LARGE_ROTATION_OFF  ? 0
                                               : c->large_rotation == OST_LARGE_ROTATION_ON ? 2
                                                                                            : 1,

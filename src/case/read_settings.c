@@ -34,6 +34,37 @@ OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, 
     return OST_SUCCESS;
 }
 
+/* A word, or a mapping with the number of modes. */
+OstStatus ost_read_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    static const char *const words[] = {"off", "on"};
+    OstYamlKey keys[] = {{.name = "modes", .needed = 1}};
+    int64_t modes;
+    if (!ost_yaml_is(yaml, node, OST_YAML_MAPPING))
+        return ost_yaml_word(yaml, node, "answer", words, OST_COUNT_OF(words), &c->buckling_modes);
+    OST_TRY(ost_yaml_mapping(yaml, node, keys, OST_COUNT_OF(keys)));
+    OST_TRY(ost_yaml_integer(yaml, keys[0].value, 1, OST_MOST_BUCKLING_MODES, &modes));
+    c->buckling_modes = (int)modes;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_settle_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
+{
+    const unsigned first = 1U << OST_FIELD_BUCKLING_MODE_1, every = (1U << OST_MOST_BUCKLING_MODES) * first - first;
+    const unsigned modes = (1U << c->buckling_modes) * first - first;
+    if (c->named_fields & every & ~modes)
+        return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                         "%s:%d: the output holds a buckling mode that is not asked for; say buckling: {modes: %d}",
+                         yaml->path, c->fields_line, OST_MOST_BUCKLING_MODES);
+    if (c->buckling_modes > 0 && c->path_steps > 0)
+        return ost_yaml_raise(yaml, node,
+                              "the body buckles under the load of one linear answer, and a path has many; leave out "
+                              "'buckling' or 'path'");
+    if (!c->named_fields)
+        c->output_fields |= modes;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
     static const char *const words[] = {"consistent", "classical"};

@@ -17,6 +17,8 @@ OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase
 OstStatus ost_read_accuracy(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_output(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_read_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
+OstStatus ost_settle_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_large_rotation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_formulation(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);
 OstStatus ost_read_load_path(const OstYaml *yaml, const OstYamlNode *node, OstCase *c);

@@ -194,6 +194,18 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
         except_linear(f, state);
 }
 
+/* Of each mode, and one more, three columns of three vectors, its displacement and forces; the modes found. */
+static void buckling(const OstEffectFacts *f, OstEffectState *state)
+{
+    if (f->buckling == 0)
+        off(state, "the case does not say buckling");
+    else if (!why_not_mixed(f))
+        off(state, "the mixed form has no buckling modes; element: {mixed: off} has them");
+    else
+        on(state, (264.0 * (f->buckling + 1.0) + 24.0 * f->buckling) * f->nodes,
+           "the case says so: %d mode%s of the linear answer", f->buckling, f->buckling == 1 ? "" : "s");
+}
+
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -398,7 +410,7 @@ void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
     OST_EFFECT_TABLE(OST_EFFECT_RULE)
 #undef OST_EFFECT_RULE
     for (int e = 0; e < OST_EFFECT_COUNT; e++)
-        if (facts->without & 1u << e)
+        if (facts->without >> e & 1U)
             off(&effects->state[e], "left out, to see what it changes");
 }
 

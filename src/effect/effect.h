@@ -20,6 +20,7 @@
     X(OST_EFFECT_MIXED, "mixed form", mixed)                                                  \
     X(OST_EFFECT_MEAN_DILATATION, "mean dilatation", mean_dilatation)                         \
     X(OST_EFFECT_LARGE_ROTATION, "large rotation", large_rotation)                            \
+    X(OST_EFFECT_BUCKLING, "buckling", buckling)                                              \
     X(OST_EFFECT_LINEAR_SPACE, "linear space", linear_space)                                  \
     X(OST_EFFECT_PRESCRIBED_DISPLACEMENT, "prescribed displacement", prescribed_displacement) \
     X(OST_EFFECT_SLIDING, "sliding support", sliding)                                         \
@@ -68,6 +69,7 @@ typedef struct OstEffectFacts {
     int constraints, prescribed, slides, rigid_faces, ties, periodic;
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
+    int buckling;       /* modes asked for */
     double accuracy;    /* relative */
     const char *formulation;
     int classical;          /* is it? */
@@ -90,7 +92,7 @@ typedef struct OstEffectFacts {
     double merge;                   /* vertices no farther apart are joined; 0: none */
     double nodes, tets, regions;    /* of the mesh */
     double vertices, edges;         /* of its tets */
-    unsigned without;               /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
+    uint64_t without;               /* effects that a study leaves out: bit e - OST_EFFECT_FIRST */
 } OstEffectFacts;
 
 /* An effect of one scene. `bytes`: estimated peak memory on one rank, without ghosts; 0 if it is negligible or not

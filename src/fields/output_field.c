@@ -30,6 +30,12 @@ static const char *const word_of[OST_FIELD_COUNT] = {
 #define DIRECTION(which) DERIVED(3, vector, none, STRESS, "unit vector along which the " which " principal stress acts")
 #define MATERIAL_AXIS(which) DERIVED(3, vector, none, 0, "unit vector along material axis " which ", at the centroid")
 
+#define BUCKLING_MODE(which)                                                                                         \
+    {                                                                                                                \
+        NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, vector, none,                                                      \
+            "the motion of the " which " load factor at which the body buckles, the largest displacement 1", 0, 0, 0 \
+    }
+
 static const OstOutputField kind[OST_FIELD_COUNT] = {
     [OST_FIELD_DISPLACEMENT] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, vector, "length", "displacement", 0, 0, 0},
     [OST_FIELD_REACTION] = {NULL, OST_ON_NODES, OST_VALUES_DOUBLE, 3, vector, force,
@@ -75,6 +81,9 @@ static const OstOutputField kind[OST_FIELD_COUNT] = {
     [OST_FIELD_MIXED_PRESSURE] = DERIVED(1, "", force_per_area, 0,
                                          "the mixed form's own pressure at the centroid: minus a third of the trace of "
                                          "the stress m p of the stiff mode; 0 in regions without one"),
+    [OST_FIELD_BUCKLING_MODE_1] = BUCKLING_MODE("lowest"),
+    [OST_FIELD_BUCKLING_MODE_2] = BUCKLING_MODE("second"),
+    [OST_FIELD_BUCKLING_MODE_3] = BUCKLING_MODE("third"),
 };
 
 #define LABEL(word, centring, text)                                    \

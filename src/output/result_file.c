@@ -41,6 +41,10 @@ static const void *values_of(const OstResult *result, OstOutputFieldBit field)
         return result->mesh->tet_region;
     case OST_FIELD_ERROR:
         return result->tet_error;
+    case OST_FIELD_BUCKLING_MODE_1:
+    case OST_FIELD_BUCKLING_MODE_2:
+    case OST_FIELD_BUCKLING_MODE_3:
+        return result->buckling_mode[field - OST_FIELD_BUCKLING_MODE_1];
     default:
         return NULL;
     }

@@ -220,6 +220,27 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
     return 1;
 }
 
+/* Below this load factor what is not in the scene, as a column's own curvature, may matter more than what is. */
+static const double near_buckling = 1.25;
+
+static int warn_of_buckling(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    const OstBuckling *buckling = &result->buckling;
+    if (!buckling->known || !(buckling->factor[0] < near_buckling) || result->newton.jumps > 0)
+        return 0;
+    if (buckling->factor[0] < 1.0)
+        snprintf(text, OST_LONGEST_WARNING, "by linear theory the body buckles at %.4g times this load: %s",
+                 buckling->factor[0],
+                 result->newton.used ? "what it does beyond depends on what is not in the scene, as its imperfections"
+                                     : "the state at rest that is found is not stable");
+    else
+        snprintf(text, OST_LONGEST_WARNING,
+                 "by linear theory the body buckles at %.4g times this load: what is not in the scene, as a small "
+                 "curvature of its own, grows to about %.2g times as much",
+                 buckling->factor[0], buckling->factor[0] / (buckling->factor[0] - 1.0));
+    return 1;
+}
+
 /* A larger error of the answer is warned of. */
 static const double coarse = 0.05;
 
@@ -278,8 +299,8 @@ static int warn_of_large_residual(const OstResult *result, char text[OST_LONGEST
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
     int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {
-        warn_of_linear_theory, warn_of_cut_off,     warn_of_inverted,      warn_of_jump,
-        warn_of_stability,     warn_of_coarse_mesh, warn_of_large_residual};
+        warn_of_linear_theory, warn_of_cut_off,     warn_of_inverted,       warn_of_jump,
+        warn_of_stability,     warn_of_coarse_mesh, warn_of_large_residual, warn_of_buckling};
     text[0] = '\0';
     return warn[number](result, text);
 }
@@ -297,6 +318,8 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
            degrees * newton->linear_rotation, 100.0 * newton->linear_strain);
     if (fabs(newton->linear_stiffening) >= newton->linear_error)
         printf("leaves out that stress makes the body %s as it turns, and ", stiffened);
+    else if (result->buckling.known && 1.0 / result->buckling.factor[0] == newton->linear_error)
+        printf("leaves out that the body buckles, and ");
     else if (newton->linear_change >= newton->linear_error && newton->linear_error > newton->accuracy)
         printf("leaves out that the loads act on the body as it has moved, and to first order ");
     printf("is off %s: ", off);
@@ -320,6 +343,20 @@ static void print_large_rotation(const OstScene *scene, const OstResult *result)
         printf("                   the path is followed up to t = %.6g\n", newton->reached);
     else if (result->unfinished)
         printf("                   %.6g of the load is reached\n", newton->reached);
+}
+
+static void print_buckling(const OstResult *result)
+{
+    const OstBuckling *buckling = &result->buckling;
+    if (!buckling->known)
+        return;
+    printf("  buckling         ");
+    for (int m = 0; m < buckling->count && (m == 0 || isfinite(buckling->factor[m])); m++)
+        if (isfinite(buckling->factor[m]))
+            printf("%sat %.5g", m > 0 ? ", " : "", buckling->factor[m]);
+        else
+            printf("never");
+    printf(" times the load, by linear theory%s\n", buckling->converged ? "" : " (or below: not converged)");
 }
 
 static const char *const criterion_word[OST_CRITERIA] = {
@@ -364,6 +401,7 @@ void ost_summary_print(const OstScene *scene, const OstResult *result, const cha
     printf("  unknowns         %lld\n", (long long)result->unknowns);
     print_accuracy(&result->answer, checks);
     print_solve(result);
+    print_buckling(result);
     print_large_rotation(scene, result);
     print_checks(result);
     print_errors(checks);

@@ -108,6 +108,21 @@ static json_t *strength_json(const OstResult *result)
     return criteria;
 }
 
+/* The load factors of buckling modes; null: not looked for, or none that matters. A factor is null where the body never
+ * buckles. */
+static json_t *buckling_json(const OstBuckling *buckling)
+{
+    json_t *factors = json_array();
+    for (int m = 0; m < buckling->count; m++)
+        json_array_append_new(factors, ost_json_number(buckling->factor[m]));
+    json_t *all = json_pack("{s:o, s:i, s:b, s:f}", "load_factors", factors, "iterations", buckling->iterations,
+                            "converged", buckling->converged, "seconds", buckling->seconds);
+    if (buckling->known)
+        return all;
+    json_decref(all);
+    return json_null();
+}
+
 static json_t *large_rotation_json(const OstNewtonReport *newton)
 {
     if (!newton->judged)
@@ -203,18 +218,19 @@ json_t *ost_summary_json(const OstScene *scene, const OstResult *result, const O
                          const OstWatchedValue *watched, const char *file)
 {
     const OstMesh *mesh = result->mesh;
-    return json_pack(
-        "{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:s?, s:o}",
-        "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
-        ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
-        warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices", (json_int_t)mesh->global_nodes,
-        "tets", (json_int_t)mesh->global_tets, "unknowns", (json_int_t)result->unknowns, "solver",
-        solver_json(&result->solve), "large_rotation", large_rotation_json(&result->newton), "checks",
-        checks_json(&result->checks), "answer_error", answer_error_json(result), "largest_displacement",
-        ost_json_number(result->largest_displacement), "largest_at", vector_json(result->largest_at), "watched",
-        watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects), "ledger",
-        summary ? ost_ledger_json(scene->ctx, result->solve.nonzeros, summary) : NULL, "output", file, "strength",
-        strength_json(result));
+    return json_pack("{s:s, s:s?, s:b, s:s, s:o, s:o, s:i, s:I, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, "
+                     "s:o*, s:s?, s:o, s:o}",
+                     "case", scene->c->path, "title", scene->c->title, "accepted", result->verdict.count == 0, "status",
+                     ost_result_status(result), "reasons", objections_json(&result->verdict), "warnings",
+                     warnings_json(scene->ctx, result), "ranks", ost_size(scene->ctx), "vertices",
+                     (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets, "unknowns",
+                     (json_int_t)result->unknowns, "solver", solver_json(&result->solve), "large_rotation",
+                     large_rotation_json(&result->newton), "checks", checks_json(&result->checks), "answer_error",
+                     answer_error_json(result), "largest_displacement", ost_json_number(result->largest_displacement),
+                     "largest_at", vector_json(result->largest_at), "watched",
+                     watched_json(watched, scene->c->watch_count), "effects", ost_effects_json(&scene->plan.effects),
+                     "ledger", summary ? ost_ledger_json(scene->ctx, result->solve.nonzeros, summary) : NULL, "output",
+                     file, "strength", strength_json(result), "buckling", buckling_json(&result->buckling));
 }
 
 OstStatus ost_summary_write_json(const OstScene *scene, const OstResult *result, OstPath *path,

@@ -225,6 +225,8 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
         made->beyond_linear = scene->c->formulation;
     made->automatic = scene->c->large_rotation == OST_LARGE_ROTATION_AUTO;
     made->accuracy = scene->c->relative_error;
+    if (ost_effect_on(made->effects, OST_EFFECT_BUCKLING))
+        made->buckling_modes = scene->c->buckling_modes;
     made->eigen_function = scene->c->eigen_table;
     OST_TRY_DONE(ost_scene_supports(scene, 0, &made->supports));
     OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force, &made->follower));

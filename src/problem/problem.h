@@ -41,6 +41,7 @@ struct OstProblem {
     OstFormulation beyond_linear; /* of the answer; LINEAR: linear theory whatever the rotations */
     int automatic;                /* the latter only where linear theory is off by more than `accuracy`, relative? */
     double accuracy;
+    int buckling_modes; /* of the linear answer: as many as are asked for */
     int free_body;
     int with_metric;      /* is the body orthotropic, so that multigrid needs the material metric? */
     OstSolverFacts facts; /* of the materials */

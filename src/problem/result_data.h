@@ -90,10 +90,12 @@ struct OstResult {
     OstWorstTet worst; /* where rotations are large: the tet that is compressed the most */
     OstChecks checks;
     OstFailure failure;
-    OstAnswerError answer; /* the error that the mesh makes */
-    int reached;           /* is there a displacement? Not if no solver could be made */
-    int unfinished;        /* did the solver stop short of the requested residual? */
-    OstVerdict verdict;    /* no objections: the result is an answer */
+    OstBuckling buckling;
+    double *buckling_mode[OST_MOST_BUCKLING_MODES]; /* 3 × node_count each, or NULL */
+    OstAnswerError answer;                          /* the error that the mesh makes */
+    int reached;                                    /* is there a displacement? Not if no solver could be made */
+    int unfinished;                                 /* did the solver stop short of the requested residual? */
+    OstVerdict verdict;                             /* no objections: the result is an answer */
 };
 
 #endif

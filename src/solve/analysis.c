@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "orthostat/path.h"
 #include "recovery/recovery.h"
+#include "solve/buckling/buckling.h"
 #include "solve/distributing/distributing.h"
 #include "solve/linear.h"
 
@@ -75,6 +76,8 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
     result->formulation = ost_problem_formulation(analysis->problem);
     OST_TRY(ost_agree(ctx, ost_result_prepare_means(result, fields, &means)));
     OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, means, result));
+    if (analysis->problem->automatic && !result->newton.used && ost_buckling_ends(result))
+        ost_buckling_object(result);
     if (analysis->problem->driven)
         OST_TRY(ost_distributing_react(analysis->problem, result));
     if (solved_for->errors.known) /* one error of the displacement is stated */
@@ -108,6 +111,23 @@ OstStatus ost_analysis_make_common(OstAnalysis *analysis, unsigned fields)
     return fields >> OST_FIELD_ERROR & 1U ? keep_estimate(analysis) : OST_SUCCESS;
 }
 
+OstStatus ost_analysis_find_buckling(const OstAnalysis *analysis, OstResult *result)
+{
+    const OstLinear *linear = analysis->work;
+    const OstProblem *problem = analysis->problem;
+    if (problem->c && problem->c->buckling_modes > problem->buckling_modes)
+        ost_warn(analysis->ctx, "no buckling modes are looked for: %s",
+                 ost_effect_state(problem->effects, OST_EFFECT_BUCKLING)->reason);
+    if (problem->buckling_modes > 0 && !problem->conservative) {
+        ost_warn(analysis->ctx, "no buckling modes are looked for: the pressure follows a surface with a free rim, so "
+                                "that no energy tells where the body leaves its state at rest");
+        return OST_SUCCESS;
+    }
+    if (problem->buckling_modes == 0 || !result->reached)
+        return OST_SUCCESS;
+    return ost_buckling_find(analysis->problem, linear->stiffness.solver, result);
+}
+
 static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstResult *result)
 {
     OstSolvedFor solved_for = {0};
@@ -120,6 +140,8 @@ static OstStatus solve(OstAnalysis *analysis, int is_last, unsigned fields, OstR
         ost_guard_explain(analysis->problem, analysis->strategy->solve(analysis, result, &solved_for));
     if (!result->reached)
         return solved;
+    if (analysis->strategy == &ost_linear_strategy)
+        OST_TRY(ost_analysis_find_buckling(analysis, result));
     ost_result_take_outcome(result, solved);
     if (!result->unfinished)
         OST_TRY(solved);

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
+#include "solve/buckling/buckling.h"
 #include "solve/left_out/left_out.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
@@ -168,6 +169,8 @@ OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *resu
     if (!linear->stiffness.solver)
         status = ost_stiffness_solver_make(&linear->stiffness);
     OST_THEN(ost_left_out_find(analysis->problem, linear->stiffness.solver, result));
+    if (result->newton.linear_error <= analysis->problem->accuracy)
+        OST_THEN(ost_buckling_judge(analysis->problem, linear->stiffness.solver, result));
     ost_ledger_leave(analysis->ctx);
     return status;
 }
@@ -176,10 +179,13 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
 {
     const OstProblem *problem = analysis->problem;
     OST_TRY(ost_linear_strategy.solve(analysis, result, solved_for));
+    OST_TRY(ost_analysis_find_buckling(analysis, result));
     OST_TRY(ost_nonlinear_judge(problem, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         OST_TRY(ost_nonlinear_look_closer(analysis, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
+        return OST_SUCCESS;
+    if (problem->automatic && ost_buckling_ends(result))
         return OST_SUCCESS;
     if (analysis->company)
         return OST_RAISE(analysis->ctx, OST_NOT_CONVERGED, "rotations are too large to be solved for in company");

@@ -113,8 +113,9 @@ static OstStatus decide(OstPath *path, OstResult *result)
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
         OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
         OST_FREE(result->left_out, result->left_out_reaction); /* of that time alone */
+        result->buckling = (OstBuckling){0};
         path->judged.linear_change = result->newton.linear_change;
-        path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_change);
+        path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_error);
     }
     path->nonlinear = !problem->automatic || path->judged.linear_error > problem->accuracy;
     return OST_SUCCESS;

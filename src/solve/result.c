@@ -60,6 +60,8 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->surplus);
     OST_FREE((*result)->left_out);
     OST_FREE((*result)->left_out_reaction);
+    for (int m = 0; m < OST_MOST_BUCKLING_MODES; m++)
+        OST_FREE((*result)->buckling_mode[m]);
     OST_FREE((*result)->node_stress_surplus);
     OST_FREE((*result)->reactions);
     OST_FREE((*result)->stress_surplus);
@@ -123,6 +125,11 @@ OstStatus ost_result_find_largest(OstResult *result)
     result->largest_displacement = largest.value;
     memcpy(result->largest_at, at, sizeof at);
     return OST_SUCCESS;
+}
+
+const OstBuckling *ost_result_buckling(const OstResult *result)
+{
+    return &result->buckling;
 }
 
 const double *ost_result_displacement(const OstResult *result)

@@ -42,7 +42,10 @@ extern const OstStrategy ost_nonlinear_strategy; /* nonlinear.c */
 /* Collective. How far is linear theory off in this linear result? Fills that part of result->newton. */
 OstStatus ost_nonlinear_judge(const OstProblem *problem, OstResult *result);
 
-/* Collective. ost_left_out_find, on the account of large rotations. */
+/* Collective. The buckling modes of a linear result that the problem asks for, if any. */
+OstStatus ost_analysis_find_buckling(const OstAnalysis *analysis, OstResult *result);
+
+/* Collective. ost_left_out_find and ost_buckling_judge, on the account of large rotations. */
 OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *result);
 
 /* Local. Has Newton's method a mixed form for the problem, should it be needed? Not without an energy. */

@@ -252,7 +252,7 @@ OstStatus ost_variant_case(const OstScene *scene, OstVariant variant, OstVariant
         made->c.large_rotation = OST_LARGE_ROTATION_ON;
         return OST_SUCCESS;
     default:
-        made->c.without = 1u << (ost_variant_effect[variant] - OST_EFFECT_FIRST);
+        made->c.without = UINT64_C(1) << (ost_variant_effect[variant] - OST_EFFECT_FIRST);
         return OST_SUCCESS;
     }
 }

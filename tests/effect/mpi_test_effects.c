@@ -82,6 +82,8 @@ static const struct {
                                        BLOCK RUBBER HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_LARGE_ROTATION) = {BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: on\nsolver: {method: metric}\n",
                                       BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: off\n"},
+    ROW(OST_EFFECT_BUCKLING) = {BLOCK SOFT HELD PULLED "buckling: {modes: 2}\n" NO_FIELDS,
+                                BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_LINEAR_SPACE) = {QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: metric}\n",
                                     QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
     ROW(OST_EFFECT_PRESCRIBED_DISPLACEMENT) = {BLOCK SOFT MOVED NO_FIELDS, BLOCK SOFT SLIDING PULLED NO_FIELDS},
