@@ -120,8 +120,14 @@ class Result:
                       doc="OstNewtonReport of orthostat/result.h")
     error = property(lambda self: struct(lib.ost_result_answer_error(self.pointer)[0]),
                      doc="the estimated error that the mesh makes: OstAnswerError of orthostat/result.h")
-    failure = property(lambda self: struct(lib.ost_result_failure(self.pointer)[0]),
-                       doc="the least load factors to failure: OstFailure of orthostat/result.h")
+
+    @property
+    def failure(self):
+        """The least load factors to failure: OstFailure of orthostat/result.h; None: no material has strengths, or
+        none was asked for."""
+        found = lib.ost_result_failure(self.pointer)[0]
+        return struct(found) if found.known else None
+
     strain_energy = property(lambda self: lib.ost_result_checks(self.pointer).strain_energy)
     work = property(lambda self: lib.ost_result_checks(self.pointer).work)
 

@@ -4,12 +4,13 @@ import math
 from collections import namedtuple
 
 import numpy as np
+from matplotlib import colormaps
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_ID_TYPE
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
-from .common import Refusal
-from .fields import axes_of, name_and_part, read_field
+from .common import BEYOND, Refusal
+from .fields import axes_of, is_load_factor, name_and_part, read_field
 from .marks import make_points
 from .results import read_step
 
@@ -19,7 +20,8 @@ COLOURS, SIGNED = "viridis", "coolwarm"  # of what has one sign, and of what has
 # What is it instead of an answer, by the file's own words (solve --keep)? None: an answer. `value`: what colours stand for.
 # Is it an envelope, which has |u| and no u?
 Body = namedtuple("Body", "grid rest moved size scale status load reaction axes value envelope")
-Shade = namedtuple("Shade", "name low high colours")
+# Is anything drawn beyond the range?
+Shade = namedtuple("Shade", "name low high colours beyond")
 
 
 def merge_pieces(grid):
@@ -44,20 +46,30 @@ def round_scale(scale):
     return min((1, 2, 5, 10), key=lambda m: abs(math.log(m * power / scale))) * power
 
 
-def choose_scale(asked, largest, extent):
-    """A displacement of 2 to 40 percent of the body shows as it is; any other is brought to about 12 percent."""
+def choose_scale(asked, largest, extent, keeps_lengths=False):
+    """A displacement of 2 to 40 percent of the body shows as it is, and a larger one that is found with large rotations,
+    where the body keeps its lengths; any other is brought to about 12 percent."""
     if asked != "auto":
         return float(asked)
-    if largest == 0.0 or 0.02 * extent <= largest <= 0.4 * extent:
+    if largest == 0.0 or 0.02 * extent <= largest and (largest <= 0.4 * extent or keeps_lengths):
         return 1.0
     return round_scale(0.12 * extent / largest)
+
+
+def keeps_lengths(body, u):
+    """Do edges of tets change by less than 5 percent, in the mean?"""
+    first = vtk_to_numpy(body.grid.GetCells().GetOffsetsArray())[:-1]
+    nodes = vtk_to_numpy(body.grid.GetCells().GetConnectivityArray())[first[:, None] + np.arange(4)]
+    before, after = (np.linalg.norm(at[nodes[:, 1:]] - at[nodes[:, :1]], axis=2) for at in (body.rest, body.rest + u))
+    return np.sqrt(np.mean((after / before - 1.0) ** 2)) < 0.05
 
 
 def load_bodies(paths, asked_scale, field=None):
     """The bodies of several results, all with the scale that suits the one that moves most."""
     loaded = [load_fields(path, field) for path in paths]
-    scale = choose_scale(asked_scale, max(np.linalg.norm(u, axis=1).max() for _, u, _ in loaded),
-                         max(np.ptp(body.rest, axis=0).max() for body, _, _ in loaded))
+    largest_of = [np.linalg.norm(u, axis=1).max() for _, u, _ in loaded]
+    scale = choose_scale(asked_scale, max(largest_of), max(np.ptp(body.rest, axis=0).max() for body, _, _ in loaded),
+                         keeps_lengths(*loaded[np.argmax(largest_of)][:2]))
     scale = 1.0 if all(body.envelope for body, _, _ in loaded) else scale
     return [body._replace(moved=body.rest + scale * u, scale=scale, status=status) for body, u, status in loaded]
 
@@ -93,8 +105,11 @@ def largest(bodies):
 
 
 def shade_of(bodies, field):
-    """The range of all bodies, from 0 where it has one sign; equal to both sides of 0 where it has two."""
+    """The range of all bodies, from 0 where it has one sign; equal to both sides of 0 where it has two. Of load factors it
+    ends at ten times the least: those of tets with little stress say nothing."""
     low, high = min(body.value.min() for body in bodies), max(body.value.max() for body in bodies)
+    is_cut = field is not None and is_load_factor(field) and 0 < 10 * low < high
+    high = 10 * low if is_cut else high
     both = low < -1e-9 * high and high > 0
     size = max(-low, high)
     name = "largest |u|" if all(body.envelope for body in bodies) else "|u|"
@@ -102,9 +117,16 @@ def shade_of(bodies, field):
         name = " ".join(name_and_part(field)).strip().replace("_", " ")
         name = name.replace("von mises", "mises").replace("mises", "von Mises")
     if both:
-        return Shade(name, -size, size, SIGNED)
+        return Shade(name, -size, size, SIGNED, False)
     low, high = (0.0, high) if high > 0 else (low, 0.0)
-    return Shade(name, low, high if high > low else 1.0, COLOURS)
+    return Shade(name, low, high if high > low else 1.0, COLOURS, bool(is_cut))
+
+
+def colours_of(shade):
+    colours = colormaps[shade.colours].copy()
+    if shade.beyond:
+        colours.set_over(BEYOND)
+    return colours
 
 
 def grid_at(body, places):

@@ -13,6 +13,10 @@ def is_principal(name):
     return name in ("principal_stress", "principal_strain")
 
 
+def is_load_factor(field):
+    return field.endswith("load_factor")
+
+
 def name_and_part(field):
     """NAME:PART; without a part von Mises' stress of a stress, of principal values the largest."""
     name, _, part = field.partition(":")
@@ -48,22 +52,26 @@ def read_field(path, whole, first, field):
         if data.GetArray(name) is None:
             continue
         values = part_of(path, vtk_to_numpy(data.GetArray(name)).astype(float), name, component)
-        return values[first] if data.IsA("vtkPointData") else average(whole, first, values)
+        return values[first] if data.IsA("vtkPointData") else average(whole, first, values, is_load_factor(name))
     names = [data.GetArrayName(a) for data in (whole.GetPointData(), whole.GetCellData())
              for a in range(data.GetNumberOfArrays())]
     raise Refusal(f"{path}: has no field '{name}'; it has {', '.join(names)}. Which are written says the case: "
                   "output: {fields: [...]}")
 
 
-def average(whole, first, values):
+NOWHERE = 1e9  # load factor where nothing fails
+
+
+def average(whole, first, values, is_factor=False):
     cells = whole.GetCells()
     label = whole.GetPointData().GetArray("vertex")
     keys = vtk_to_numpy(label) if label else vtk_to_numpy(whole.GetPoints().GetData()).astype(float)
     node = np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
     ids = node[vtk_to_numpy(cells.GetConnectivityArray())]
     counts = np.diff(vtk_to_numpy(cells.GetOffsetsArray()))
-    sums = np.bincount(ids, np.repeat(values, counts), len(first))
-    return sums / np.maximum(np.bincount(ids, minlength=len(first)), 1)
+    weight = (values < NOWHERE).astype(float) if is_factor else np.ones(len(values))
+    sums, weights = (np.bincount(ids, np.repeat(rows, counts), len(first)) for rows in (weight * values, weight))
+    return np.where(weights > 0, sums / np.maximum(weights, 1), NOWHERE if is_factor else 0.0)
 
 
 def axes_of(data):

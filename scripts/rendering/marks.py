@@ -43,28 +43,45 @@ def bins_of(places, size):
 
 
 def gather_loads(rest, moved, load, size):
-    """Loads that lay in a cube of this size become one arrow: where it starts, and their sum. One arrow is enough for a
-    load of the whole body, such as its weight."""
+    """Loads that lay in a cube of this size become one arrow: where it starts, and their sum; or, where they cancel, their
+    moment: returns the forces, then the moments. One arrow is enough for a load of the whole body, such as its weight."""
     size_of_load = np.linalg.norm(load, axis=1)
     on = size_of_load > 1e-12 * size_of_load.max()
     bins = bins_of(rest[on], size) if on.mean() < 0.5 else np.zeros(on.sum(), dtype=int)
-    sums = np.zeros((bins.max() + 1, 7))
-    np.add.at(sums, bins, np.hstack([load[on], size_of_load[on, None] * moved[on], size_of_load[on, None]]))
-    return sums[:, 3:6] / sums[:, 6:], sums[:, :3]
+    load, weight = load[on], size_of_load[on, None]
+    sums = add_up(bins, np.hstack([load, weight * moved[on], weight * rest[on], weight]))
+    force, whole, starts = sums[:, :3], sums[:, 9], sums[:, 3:6] / sums[:, 9:]
+    arm = rest[on] - (sums[:, 6:9] / sums[:, 9:])[bins]
+    turning = add_up(bins, np.hstack([np.cross(arm, load), np.linalg.norm(arm, axis=1)[:, None] * weight]))
+    cancels = np.linalg.norm(force, axis=1) < 0.05 * whole
+    turns = cancels & (np.linalg.norm(turning[:, :3], axis=1) > 0.2 * turning[:, 3])
+    return (starts[~cancels], force[~cancels]), (starts[turns], turning[turns, :3])
 
 
-def arrows(starts, vectors, eye):
-    """Flat arrows that face the eye, as triangles: a shaft and a head."""
+def add_up(bins, rows):
+    sums = np.zeros((bins.max() + 1, rows.shape[1]))
+    np.add.at(sums, bins, rows)
+    return sums
+
+
+ARROW = [[0, -0.045], [0.6, -0.045], [0.6, 0.045], [0, 0.045], [0.6, -0.15], [1, 0], [0.6, 0.15]]
+TWO_HEADS = [[0, -0.045], [0.4, -0.045], [0.4, 0.045], [0, 0.045], [0.65, -0.15], [1, 0], [0.65, 0.15],
+             [0.3, -0.15], [0.65, 0], [0.3, 0.15]]
+
+
+def arrows(starts, vectors, eye, outline=ARROW):
+    """Flat arrows that face the eye, as triangles: a shaft and heads."""
     length = np.linalg.norm(vectors, axis=1)
     starts, vectors = starts[length > 0], vectors[length > 0]
     across = np.cross(vectors, eye)
     across *= (length[length > 0] / np.maximum(np.linalg.norm(across, axis=1), 1e-9 * length[length > 0]))[:, None]
-    outline = np.array([[0, -0.045], [0.6, -0.045], [0.6, 0.045], [0, 0.045], [0.6, -0.15], [1, 0], [0.6, 0.15]])
+    outline = np.array(outline)
     points = starts[:, None] + outline[:, :1] * vectors[:, None] + outline[:, 1:] * across[:, None]
-    first = 7 * np.arange(len(starts))[:, None, None]
+    first = len(outline) * np.arange(len(starts))[:, None, None]
+    triangles = [[0, 1, 2], [0, 2, 3], *([i, i + 1, i + 2] for i in range(4, len(outline), 3))]
     data = vtkPolyData()
     data.SetPoints(make_points(points.reshape(-1, 3)))
-    data.SetPolys(make_cells((first + [[0, 1, 2], [0, 2, 3], [4, 5, 6]]).reshape(-1, 3)))
+    data.SetPolys(make_cells((first + triangles).reshape(-1, 3)))
     return actor_of(data, LOAD)
 
 

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from .bodies import shade_of
-from .common import ALARM, FAINT, INK
+from .bodies import colours_of, shade_of
+from .common import ALARM, BEYOND, FAINT, INK
 from .marks import HELD, LOAD, MOVED
 from .section import choose_section, draw_section
 from .shape import draw_shape
@@ -98,7 +98,7 @@ def show(figure, box, bodies, number, view, asked):
 def draw_colour_bar(figure, shade):
     height = 100 * figure.get_figheight()
     bar = figure.add_axes([0.3, 56 / height, 0.4, 16 / height])
-    colours = figure.colorbar(ScalarMappable(Normalize(shade.low, shade.high), shade.colours), cax=bar,
+    colours = figure.colorbar(ScalarMappable(Normalize(shade.low, shade.high), colours_of(shade)), cax=bar,
                               orientation="horizontal")
     colours.locator = MaxNLocator(5)  # six labels of six digits fit side by side
     colours.update_ticks()
@@ -112,11 +112,15 @@ def draw_key(figure, bodies, asked):
     """What arrows, dots and dashes stand for: those that are there."""
     held = [np.linalg.norm(body.reaction, axis=1) > 0 for body in bodies if body.reaction is not None]
     moves = [body.size > 0 for body in bodies if body.reaction is not None]
-    marks = [(bool(load_arrows(bodies)), Line2D([], [], color=LOAD, marker=">", linewidth=2.2, markersize=7), "load"),
+    forces, moments = load_arrows(bodies)
+    marks = [(bool(forces), Line2D([], [], color=LOAD, marker=">", linewidth=2.2, markersize=7), "load"),
+             (bool(moments), Line2D([0, 0.5, 1], [0, 0, 0], color=LOAD, marker=">", markevery=[1, 2], linewidth=2.2, markersize=7),
+              "moment"),
              (any((h & ~m).any() for h, m in zip(held, moves)), Line2D([], [], color=HELD, marker="o", linewidth=0), "held"),
              (any((h & m).any() for h, m in zip(held, moves)), Line2D([], [], color=MOVED, marker="o", linewidth=0),
               "on a support that moves"),
              (asked.fibres is not None, Line2D([], [], color=FAINT, linewidth=2.2), f"fibre e{(asked.fibres or 0) + 1}"),
+             (shade_of(bodies, asked.field).beyond, Line2D([], [], color=BEYOND, marker="s", linewidth=0), "more, or no failure"),
              (not all(body.envelope for body in bodies), Line2D([], [], color=FAINT, linewidth=1.2), "before")]
     shown = [(line, word) for there, line, word in marks if there]
     if not shown:  # an envelope

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter
 
-from .bodies import grid_at
+from .bodies import colours_of, grid_at
 from .common import FAINT, INK, Refusal
 
 Section = namedtuple("Section", "axis value")
@@ -20,7 +20,8 @@ def choose_section(asked, body):
     if asked == "auto":
         low, high = body.rest.min(axis=0), body.rest.max(axis=0)
         axis = int(np.argmax(high - low))
-        return Section(axis, 0.5 * (low[axis] + high[axis]))
+        middle = 0.5 * (low[axis] + high[axis])
+        return Section(axis, middle if abs(middle) > 1e-9 * (high[axis] - low[axis]) else 0.0)
     name, _, value = asked.partition("=")
     try:
         return Section("xyz".index(name.strip().lower() or "?"), float(value))
@@ -73,7 +74,7 @@ def draw_section(axes, body, section, shade):
         raise Refusal(f"the plane {name} = {section.value:g} misses the deformed body, which lies between "
                       f"{low:g} and {high:g}; choose another --section")
     places, triangles, size, border = moved
-    axes.tripcolor(*places.T, triangles, size, shading="gouraud", cmap=shade.colours,
+    axes.tripcolor(*places.T, triangles, size, shading="gouraud", cmap=colours_of(shade),
                    norm=Normalize(shade.low, shade.high))
     axes.add_collection(LineCollection(border, colors=INK, linewidths=1.1, capstyle="round"))
     seen = [places]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The deformed shape with its edges, loads, supports and fibres, as pixels."""
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.colors import to_rgb
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
@@ -12,9 +11,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkLightKit, vtkPolyDataMapper
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (draws)
 
-from .bodies import grid_at, has_axis, shade_of
-from .common import FAINT, INK, SHARPNESS
-from .marks import HELD, MOVED, arrows, dashes, dots, gradients
+from .bodies import colours_of, grid_at, has_axis, shade_of
+from .common import BEYOND, FAINT, INK, SHARPNESS
+from .marks import ARROW, HELD, MOVED, TWO_HEADS, arrows, dashes, dots, gradients
 from .view import load_arrows, set_camera
 
 
@@ -35,8 +34,10 @@ def shaded_actor(body, shade):
     normals.SetFeatureAngle(40.0)
     table = vtkLookupTable()
     table.SetNumberOfTableValues(256)
-    for i, colour in enumerate(colormaps[shade.colours](np.linspace(0, 1, 256))):
+    for i, colour in enumerate(colours_of(shade)(np.linspace(0, 1, 256))):
         table.SetTableValue(i, *colour)
+    table.SetAboveRangeColor(*to_rgb(BEYOND), 1.0)
+    table.SetUseAboveRangeColor(shade.beyond)
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
     mapper.SetLookupTable(table)
@@ -99,9 +100,9 @@ def mark(renderer, overlay, bodies, number, view, fibre):
     if fibre is not None and has_axis(body, fibre):
         renderer.AddActor(dashes(surface_of(grid_at(body, body.moved)), body.axes[:, fibre],
                                  lambda cells: gradients(body, cells), 0.03 * extent, 1.3 * SHARPNESS))
-    loads = load_arrows(bodies)
-    if number in loads:
-        overlay.AddActor(arrows(*loads[number], view.eye))
+    for loads, outline in zip(load_arrows(bodies), (ARROW, TWO_HEADS)):
+        if number in loads:
+            overlay.AddActor(arrows(*loads[number], view.eye, outline))
 
 
 def draw_shape(bodies, number, view, asked, width, height):

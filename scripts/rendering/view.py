@@ -42,7 +42,7 @@ def choose_view(bodies, turn):
     eye = math.cos(lift) * front + math.sin(lift) * up
     right = unit(np.cross(up, eye))
     screen = np.column_stack([right, np.cross(eye, right)])
-    heads = [starts + vectors for starts, vectors in load_arrows(bodies).values()]
+    heads = [starts + vectors for loads in load_arrows(bodies) for starts, vectors in loads.values()]
     seen = np.vstack([places @ screen for body in bodies for places in (body.rest, body.moved)]
                      + [places @ screen for places in heads])
     low, high = seen.min(axis=0), seen.max(axis=0)
@@ -60,9 +60,17 @@ def set_camera(camera, view, aspect):
 
 
 def load_arrows(bodies):
-    """Starts and vectors of the arrows of each body that has loads, all to one scale."""
+    """Starts and vectors of the arrows of each body that has forces; and of each that has moments."""
     extent = np.linalg.norm(np.ptp(bodies[0].rest, axis=0))
     loads = {i: gather_loads(body.rest, body.moved, body.load, 0.12 * extent)
              for i, body in enumerate(bodies) if body.load is not None and body.load.any()}
-    longest = max((np.linalg.norm(vectors, axis=1).max() for _, vectors in loads.values()), default=0.0) or 1.0
-    return {i: (starts, 0.14 * extent / longest * vectors) for i, (starts, vectors) in loads.items()}
+    return [to_scale({i: both[kind] for i, both in loads.items() if len(both[kind][0]) > 0}, 0.14 * extent)
+            for kind in (0, 1)]
+
+
+def to_scale(loads, length):
+    """The longest arrow of all bodies has this length, and no body's longest is shorter than a third of it."""
+    longest = {i: np.linalg.norm(vectors, axis=1).max() for i, (_, vectors) in loads.items()}
+    most = max(longest.values(), default=1.0)
+    return {i: (starts, length / longest[i] * max(longest[i] / most, 1 / 3) * vectors)
+            for i, (starts, vectors) in loads.items()}

@@ -129,6 +129,8 @@ static int end_with(int exit_code)
 {
     errno = 0;
     const int lost = fflush(stdout) != 0 || ferror(stdout);
+    if (lost && !errno) /* an earlier line was: the reason is asked for again */
+        fputc('\n', stdout);
     if (lost)
         fprintf(stderr, "orthostat: error: standard output could not be written%s%s\n", errno ? ": " : "",
                 errno ? strerror(errno) : "");
@@ -277,6 +279,7 @@ static void launch_scale(int argc, char **argv)
 int main(int argc, char **argv)
 {
     settle_environment(argv);
+    setvbuf(stdout, NULL, _IOLBF, 0); /* in a log, warnings stand between its lines and where they belong */
     launch_scale(argc, argv);
     leave_networks_alone();
     const OstLogLevel level = take_level(&argc, &argv);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/sweep/sweep.h"
 
+#include "cli/destination.h"
 #include "cli/study_report.h"
 #include "core/error.h"
 #include "core/memory.h"
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct Arguments {
@@ -160,6 +162,40 @@ static OstStatus check(const OstCase *c, const Arguments *arguments)
     return ost_cli_check_reports(c, &arguments->common);
 }
 
+static OstStatus keep(const OstSweep *sweep, const void *kept)
+{
+    const OstArguments *arguments = kept;
+    const char *csv = arguments->text['c'], *json = arguments->text['j'];
+    OstStatus status = csv && !ost_cli_is_stdout(csv) ? ost_sweep_write_csv(sweep, csv) : OST_SUCCESS;
+    if (json && !ost_cli_is_stdout(json))
+        OST_THEN(ost_sweep_write_json(sweep, json));
+    return ost_agree(sweep->ctx, status);
+}
+
+/* Does the step of a key, up to its end or a dot, name this load case? */
+static int is_named(const char *step, const OstCase *c, int number)
+{
+    const size_t length = strcspn(step, ".");
+    char digits[16], *end = NULL;
+    snprintf(digits, sizeof digits, "%.*s", (int)length, step);
+    const long found = strtol(digits, &end, 10);
+    return (end != digits && *end == 0 && found == number) ||
+           (strlen(c->load_cases[number].name) == length && strncmp(c->load_cases[number].name, step, length) == 0);
+}
+
+/* A key of one load case changes another only if that combines it. */
+static void warn_of_other_cases(const OstSweep *sweep, const OstCase *c)
+{
+    for (int k = 0; k < sweep->key_count && sweep->load_case; k++)
+        for (int i = 0; i < c->load_case_count; i++)
+            if (strncmp(sweep->key[k].key, "cases.", 6) == 0 && is_named(sweep->key[k].key + 6, c, i) &&
+                strcmp(c->load_cases[i].name, sweep->load_case) != 0)
+                ost_warn(sweep->ctx,
+                         "%s: %s is of the load case '%s', and the sweep takes '%s' alone, which has of it what it "
+                         "combines; take that one, or leave out --case",
+                         sweep->path, sweep->key[k].key, c->load_cases[i].name, sweep->load_case);
+}
+
 /* The case is read once: it may come from standard input. */
 static OstStatus sweep_case(OstContext *ctx, void *input)
 {
@@ -170,7 +206,9 @@ static OstStatus sweep_case(OstContext *ctx, void *input)
                       .path = common->case_path,
                       .load_case = common->load_case,
                       .key_count = arguments->over_count,
-                      .key = over};
+                      .key = over,
+                      .keep = keep,
+                      .kept = common};
     OstCase *c = NULL;
     char *bytes = NULL;
     OstStatus status = OST_SUCCESS;
@@ -191,6 +229,7 @@ static OstStatus sweep_case(OstContext *ctx, void *input)
         sweep.key = c->sweep;
         sweep.key_count = c->sweep_count;
     }
+    warn_of_other_cases(&sweep, c);
     OST_TRY_DONE(ost_sweep_run(&sweep));
     status = report(&sweep, common);
 done:

@@ -131,6 +131,8 @@ const char *ost_cell_words(const OstMesh *mesh, OstGlobal tet_label, char words[
     words[0] = '\0';
     if (mesh->of_cells)
         snprintf(words, OST_CELL_WORDS, " (of element %lld of the file)", (long long)ost_cell_label(1, tet_label));
+    else if (mesh->of_arrays)
+        snprintf(words, OST_CELL_WORDS, " (index %lld)", (long long)tet_label - 1);
     return words;
 }
 

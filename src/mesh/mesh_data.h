@@ -60,6 +60,7 @@ struct OstMeshChunk {
     OstGlobal *tet_label;  /* numbers as in the file; NULL: 1, 2, 3, ... */
     int relabelled;        /* the file's numbers of tets were no use, and were replaced */
     int of_cells;          /* tets are pieces of the file's cells: those of cell 17 have the labels 171, 172, ... */
+    int of_arrays;         /* of a program, which counts tets from 0 */
     int32_t *tet_region;   /* index into regions */
     double *tet_axes;      /* NULL, or tet_count × 9: rows e1 e2 e3 */
     double *tet_field;     /* NULL, or tet_count × the columns of the fields */
@@ -72,7 +73,8 @@ struct OstMeshChunk {
     char *file;        /* that it is read from, for messages; or NULL */
 };
 
-/* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one. */
+/* The file's number of a tet, or of the cell that it is a piece of; and words for messages, "" where they are one.
+ * A program's tets have an index too. */
 enum { OST_PIECE_LABELS = 10, OST_CELL_WORDS = 64 };
 static inline OstGlobal ost_cell_label(int of_cells, OstGlobal tet_label)
 {
@@ -100,6 +102,7 @@ struct OstMesh {
     OstGlobal *tet_label;   /* tet_count: likewise */
     OstGlobal tet_shift;    /* a refined mesh has it no more */
     int of_cells;           /* as in the chunk; a refined mesh has it no more */
+    int of_arrays;          /* likewise */
     double *coordinates;    /* node_count × 3 */
     OstLocal *tet_nodes;    /* tet_count × nodes_per_tet */
     int32_t *tet_region;    /* tet_count */

@@ -194,6 +194,14 @@ def check_says_where_it_goes(folder):
 
 
 def a_body_at_rest_is_pointed_out(folder):
+    write(folder, "rest.yaml", CASE[:CASE.index("loads:")] + "cases: [{name: full, " + CASE[CASE.index("loads:"):].replace(
+        "\n  - ", " [").rstrip() + "]}, {name: none}]\n")
+    with open(os.path.join(folder, "log"), "w+", encoding="utf-8") as log:
+        subprocess.run([PROGRAM, "solve", "rest.yaml"], cwd=folder, stdout=log, stderr=log, timeout=240, check=True)
+        log.seek(0)
+        text = log.read()
+    check(text.index("untitled: full") < text.index("\northostat: warning: rest.yaml: nothing acts on the body in load case 'none'")
+          < text.index("untitled: none"), f"the log: {text}")
     write(folder, "rest.yaml", CASE[:CASE.index("loads:")])
     finished = run("solve", "rest.yaml", folder=folder)
     check(finished.exit_code == 0 and finished.errors.count("nothing acts on the body") == 1, f"{finished.errors}")

@@ -137,4 +137,8 @@ expect "beam.vtkhdf " orthostat solve --output = beam.v
 expect "beam.vtkhdf deeper " orthostat solve -o ""
 expect "beam.vtkhdf deeper " orthostat solve --json =
 expect " " orthostat solve --case b
+printf 'cases:\n  - name: wind\n    loads: []\n  - {name: snow}\nwatch: {name: none}\n' >beam.yaml
+expect "wind snow " orthostat solve beam.yaml --case ""
+expect "snow " orthostat solve beam.yaml --case = s
+expect "torsion-1-1 torsion-1-5 " orthostat verify torsion-1
 expect "check " scripts/orthostat -n 4 ch

@@ -104,6 +104,20 @@ errors = process.communicate(timeout=60)[1]
 check(process.returncode == 130 and "the files that were complete stay" in errors, f"exit {process.returncode}: {errors}")
 check(os.path.exists(first) and not [name for name in os.listdir(folder) if name.startswith(".orthostat")], os.listdir(folder))
 
+# --- a sweep leaves the runs that ended ---
+process = subprocess.Popen([PROGRAM, "sweep", "bar.yaml", "-q", "--over", "mesh.block.divisions=[4,1,1],[120,30,30]", "--csv", "bar.csv"],
+                           cwd=folder, stderr=subprocess.PIPE, text=True)
+rows = os.path.join(folder, "bar.csv")
+for _ in range(2400):
+    if os.path.exists(rows):
+        break
+    time.sleep(0.05)
+process.send_signal(signal.SIGINT)
+errors = process.communicate(timeout=60)[1]
+check(process.returncode == 130 and "the files that were complete stay" in errors, f"exit {process.returncode}: {errors}")
+with open(rows, encoding="utf-8") as stream:
+    check([line.split('"')[1] for line in stream] == ["mesh.block.divisions", "[4,1,1]"], "the run that ended")
+
 # --- the line on a terminal ---
 def on_terminal(*words):
     ours, theirs = pty.openpty()

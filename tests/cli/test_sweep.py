@@ -130,5 +130,9 @@ failed = run("sweep", "cases.yaml", "--over", "materials.0.poissons_ratio=0.3,0.
 runs = read_json(folder, "bar.json")["runs"]
 check(failed.exit_code == 1 and [one["answered"] for one in runs] == 4 * [True] + 4 * [False], failed.errors)
 check("run 5 of 8, load case pull has no answer" in failed.errors and "4 of 8 runs have no answer" in failed.errors, failed.errors)
+for key, warned in (("cases.bend.loads.0.value.z", True), ("cases.1.loads.0.value.z", True), ("cases.pull.loads", False)):
+    values = "[],[{on: {boundary: xmax}, total_force: [0, 1, 0]}]" if key.endswith("loads") else "1,2"
+    one = run("sweep", "cases.yaml", "--case", "pull", "--over", f"{key}={values}", folder=folder)
+    check(one.exit_code == 0 and (f"{key} is of the load case 'bend', and the sweep takes 'pull' alone" in one.errors) == warned, one.errors)
 renamed = run("sweep", "cases.yaml", "--over", "cases.0.name=pull,push", folder=folder)
 check("cannot change which load cases there are" in renamed.errors, renamed.errors)

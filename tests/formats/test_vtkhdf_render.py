@@ -12,14 +12,16 @@ from types import SimpleNamespace
 import numpy
 from matplotlib.image import imread
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
 sys.path.insert(0, os.path.dirname(RENDER))
-from rendering.bodies import shade_of  # noqa: E402
-from rendering.fields import axes_of, part_of  # noqa: E402
+from rendering.bodies import choose_scale, keeps_lengths, shade_of  # noqa: E402
+from rendering.fields import average, axes_of, part_of  # noqa: E402
 from rendering.marks import dashes, gather_loads, make_cells, make_points  # noqa: E402
 from rendering.results import each_step  # noqa: E402
+from rendering.section import choose_section  # noqa: E402
+from rendering.view import load_arrows  # noqa: E402
 
 
 class Render(unittest.TestCase):
@@ -130,11 +132,54 @@ output: {fields: [displacement, load, reaction, material_stress]}
     def test_loads_that_lie_together_become_one_arrow(self):
         places = numpy.array([[0, 0, 0], [0.1, 0, 0], [5, 0, 0], [9, 9, 9], [9, 8, 9], [9, 9, 8], [8, 9, 9]], float)
         load = numpy.array([[1, 0, 0], [3, 0, 0], [0, 2, 0]] + 4 * [[0, 0, 0]], float)
-        starts, sums = gather_loads(places, places, load, 1.0)
+        (starts, sums), (turned, _) = gather_loads(places, places, load, 1.0)
+        self.assertEqual(len(turned), 0)
         numpy.testing.assert_allclose(starts, [[0.075, 0, 0], [5, 0, 0]])  # two become one, nearer to the larger
         numpy.testing.assert_allclose(sums, [[4, 0, 0], [0, 2, 0]])
-        starts, sums = gather_loads(places, places, numpy.tile([0.0, 0, -1], (7, 1)), 1.0)
+        (_, sums), _ = gather_loads(places, places, numpy.tile([0.0, 0, -1], (7, 1)), 1.0)
         numpy.testing.assert_allclose(sums, [[0, 0, -7]])  # a weight is one arrow
+
+    def test_loads_that_cancel_are_a_moment_or_nothing(self):
+        end = numpy.array([[0, y, z] for y in (-1, 1) for z in (-1, 1)] + 6 * [[40, 0, 0]], float)
+        torque = numpy.array([[0, -z, y] for _, y, z in end])
+        (starts, _), (turned, moments) = gather_loads(end, end, torque, 5.0)
+        self.assertEqual(len(starts), 0)
+        numpy.testing.assert_allclose(turned, [[0, 0, 0]])
+        numpy.testing.assert_allclose(moments, [[8, 0, 0]])
+        for found, _ in gather_loads(end, end, numpy.array([[0, y, z] for _, y, z in end]), 5.0):  # pulled apart
+            self.assertEqual(len(found), 0)
+
+    def test_every_body_shows_its_loads(self):
+        rest = numpy.array([[0, 0, 0], [10, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        bodies = [SimpleNamespace(rest=rest, moved=rest, load=size * numpy.eye(4, 3, 1)) for size in (1e-3, 2.0, 4.0)]
+        forces, moments = load_arrows(bodies)
+        longest = [numpy.linalg.norm(forces[i][1], axis=1).max() for i in range(3)]
+        numpy.testing.assert_allclose(numpy.array(longest) / longest[2], [1 / 3, 1 / 2, 1])
+        self.assertEqual(moments, {})
+
+    def test_large_rotations_are_drawn_as_they_are(self):
+        grid = vtkUnstructuredGrid()
+        rest = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        grid.SetCells(VTK_TETRA, make_cells(numpy.arange(4)[None]))
+        body = SimpleNamespace(grid=grid, rest=rest)
+        turn = numpy.array([[-1.0, -1, 0], [1, -1, 0], [0, 0, 0]])  # by 90 degrees about z, less the identity
+        self.assertTrue(keeps_lengths(body, rest @ turn.T))
+        self.assertFalse(keeps_lengths(body, 0.7 * rest @ turn.T))
+        self.assertEqual([choose_scale("auto", 0.7, 1.0, kept) for kept in (True, False)], [1.0, 0.2])
+
+    def test_load_factors_of_tets_that_do_not_fail_are_left_out(self):
+        shade = shade_of([SimpleNamespace(value=numpy.array([2.0, 5.0, 1e9]), envelope=False)], "tsai_wu_load_factor")
+        self.assertEqual((shade.low, shade.high, shade.beyond), (0.0, 20.0, True))
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(make_points(numpy.arange(15.0).reshape(5, 3)))
+        grid.SetCells(VTK_TETRA, make_cells(numpy.array([[0, 1, 2, 3], [1, 2, 3, 4]])))
+        found = average(grid, numpy.arange(5), numpy.array([3.0, 1e9]), True)
+        numpy.testing.assert_allclose(found, [3, 3, 3, 3, 1e9])
+
+    def test_a_section_through_the_origin_is_at_zero(self):
+        for low, high, middle in ((-1.0, 1.0 - 1e-13, 0.0), (-1.0, 2.0, 0.5)):
+            body = SimpleNamespace(rest=numpy.array([[low, 0, 0], [high, 0.1, 0.1]]))
+            self.assertEqual(choose_section("auto", body).value, middle)
 
     def test_fibres_lie_on_the_surface_and_turn_with_the_body(self):
         surface = vtkPolyData()

@@ -168,7 +168,8 @@ def fields_are_those_of_the_file(folder):
     assert result.field("load").shape == (result.mesh.node_count, 3) and result.field("region").dtype == np.int32
     assert np.array_equal(result.field("rank"), np.full(tets, result.context.rank))
     close(result.field("axes"), np.tile(np.eye(3), (tets, 1, 1)))
-    assert orthostat.solve(BAR).field("hill_load_factor") is None  # no strengths
+    weak = orthostat.solve(BAR)  # no strengths
+    assert weak.field("hill_load_factor") is None and weak.failure is None
     raises(ValueError, "field: 'misses' is none of", result.field, "misses")
     held = result.field("pressure")
     del result
@@ -187,6 +188,8 @@ def failures_are_exceptions_with_the_librarys_words(folder):
     raises(orthostat.InvalidInput, "did you mean 'loads'", orthostat.solve, {**BAR, "loots": []})
     raises(orthostat.InvalidInput, "region 'bone'", orthostat.solve, {**BAR, "materials": [WOOD, {**WOOD, "region": "bone"}]})
     raises(orthostat.InvalidInput, "not stable", orthostat.Material, [1, 1000, 1], [0.4, 0.3, 0.9], [1, 1, 1])
+    raises(orthostat.InvalidInput, "tet 1 (index 0) is inverted", orthostat.Mesh,
+           orthostat.MeshArrays(np.eye(4, 3), [[0, 1, 2, 3]]))
     raises(ValueError, "fields: 'stres' is none of", orthostat.Case(BAR).scene().analysis().solve, fields=["stres"])
     raises(ValueError, "this is 8 × 3", orthostat.Case(BAR).scene().analysis().solve, np.zeros((8, 3)))
     raises(ValueError, "'metode' is no option", orthostat.Case(BAR).scene().problem().analysis, metode=1)

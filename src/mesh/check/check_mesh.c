@@ -50,7 +50,8 @@ static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volu
         (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad,
         twisted ? "as others of the element are not, it is twisted, has a corner of 180 degrees or more, or its nodes "
                   "are in a wrong order"
-                : "'orthostat mesh FILE NEW --orient' turns the inverted ones");
+        : mesh->of_arrays ? "exchanging two vertices of such a tet turns it"
+                          : "'orthostat mesh FILE NEW --orient' turns the inverted ones");
 }
 
 /* Has the element of the file with this tet others that are not inverted? */

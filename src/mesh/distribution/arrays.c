@@ -122,6 +122,7 @@ static OstStatus create_share(OstContext *ctx, const OstMeshArrays *arrays, OstM
     OST_TRY(check_counts(ctx, arrays));
     OST_TRY(OST_NEW(ctx, chunk, 1));
     (*chunk)->ctx = ctx;
+    (*chunk)->of_arrays = 1;
     return copy_share(arrays, *chunk);
 }
 

@@ -24,6 +24,7 @@ static void take_names(OstMeshChunk *chunk, OstMesh *mesh)
     mesh->nodes_per_tet = chunk->nodes_per_tet;
     mesh->fields = chunk->fields;
     mesh->of_cells = chunk->of_cells;
+    mesh->of_arrays = chunk->of_arrays;
     mesh->node_shift = chunk->node_shift;
     mesh->global_nodes = chunk->global_nodes;
     mesh->global_tets = chunk->global_tets;

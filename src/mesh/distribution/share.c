@@ -12,7 +12,7 @@ typedef struct Outline {
     OstGlobal nodes, tets;
     int nodes_per_tet;
     int region_count, boundary_count;
-    int has_node_labels, has_tet_labels, of_cells;
+    int has_node_labels, has_tet_labels, of_cells, of_arrays;
     size_t text_bytes; /* of all names with their terminating zeros, regions first */
 } Outline;
 
@@ -30,6 +30,7 @@ static void outline_chunk(const OstMeshChunk *chunk, Outline *outline)
     outline->has_node_labels = chunk->node_label != NULL;
     outline->has_tet_labels = chunk->tet_label != NULL;
     outline->of_cells = chunk->of_cells;
+    outline->of_arrays = chunk->of_arrays;
 }
 
 static void pack_names(const OstMeshChunk *chunk, char *text, int *kind)
@@ -87,6 +88,7 @@ static OstStatus create_empty(OstContext *ctx, const Outline *outline, const cha
     made->ctx = ctx;
     made->nodes_per_tet = outline->nodes_per_tet;
     made->of_cells = outline->of_cells;
+    made->of_arrays = outline->of_arrays;
     made->global_nodes = made->first_node = outline->nodes;
     made->global_tets = made->first_tet = outline->tets;
     OST_TRY_DONE(allocate_nothing(ctx, outline, made));

@@ -103,13 +103,13 @@ static void show_progress(const Run *run, int done, int number)
     ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
 }
 
-static void warn_if_idle(const OstScene *scene)
+static void warn_if_idle(const OstScene *scene, const char *name)
 {
     if (!ost_plan_acts(scene->c, &scene->plan))
         ost_warn(scene->ctx,
                  "%s: nothing acts on the body in load case '%s': there is no load and no prescribed "
                  "displacement",
-                 scene->c->path, scene->c->title);
+                 scene->c->path, name);
 }
 
 /* On one mesh. */
@@ -124,7 +124,7 @@ static OstStatus solve_together(Run *run)
         const int number = ost_load_cases_next(cases);
         const OstScene *scene = ost_load_cases_scene(cases, number);
         show_progress(run, ost_load_cases_count(cases) - ost_load_cases_left(cases), number);
-        warn_if_idle(scene);
+        warn_if_idle(scene, run->c->load_cases[number].name);
         const OstStatus solved = ost_load_cases_solve(cases, ost_scene_result_fields(scene), &result);
         status = conclude(run, solved, scene, result, NULL, &run->report[number]);
         ost_result_destroy(&result);

@@ -32,8 +32,11 @@ typedef struct OstSweep {
     const OstSweepKey *key;
     int watch_count; /* as in the first case that was read, of all load cases */
     char **watch;
-    int run_count, failures;
+    int run_count, done, failures;
     OstSweepRun *run; /* load cases vary first, then the last key */
+    /* Collective. Called with what is done, at most every second; or NULL. */
+    OstStatus (*keep)(const struct OstSweep *sweep, const void *kept);
+    const void *kept;
 } OstSweep;
 
 /* Collective. Solves for all values. `sweep` comes with all but watches and runs. Raises what is wrong with the case or
@@ -41,7 +44,8 @@ typedef struct OstSweep {
 OstStatus ost_sweep_run(OstSweep *sweep);
 void ost_sweep_clear(OstSweep *sweep);
 
-/* Local; rank 0 prints a table of the runs, or writes it as CSV, or everything as JSON; "-" is standard output. */
+/* Local; rank 0 prints a table of the runs that are done, or writes it as CSV, or everything as JSON; "-" is standard
+ * output. */
 void ost_sweep_print(const OstSweep *sweep);
 OstStatus ost_sweep_write_csv(const OstSweep *sweep, const char *to);
 OstStatus ost_sweep_write_json(const OstSweep *sweep, const char *to);

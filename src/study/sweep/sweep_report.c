@@ -36,7 +36,7 @@ void ost_sweep_print(const OstSweep *sweep)
     for (int w = 0; w < sweep->watch_count; w++)
         printf(" %14.14s", sweep->watch[w]);
     puts("");
-    for (int r = 0; r < sweep->run_count; r++) {
+    for (int r = 0; r < sweep->done; r++) {
         const OstSweepRun *run = &sweep->run[r];
         for (int k = 0; k < sweep->key_count; k++)
             printf("  %18.18s", run->value[k]);
@@ -77,7 +77,7 @@ static OstStatus write_rows(FILE *file, const void *content)
         ost_csv_text(file, sweep->watch[w]);
     }
     fputc('\n', file);
-    for (int r = 0; r < sweep->run_count; r++) {
+    for (int r = 0; r < sweep->done; r++) {
         const OstSweepRun *run = &sweep->run[r];
         double number;
         for (int k = 0; k < sweep->key_count; k++) {
@@ -141,7 +141,7 @@ OstStatus ost_sweep_write_json(const OstSweep *sweep, const char *to)
         json_array_append_new(cases, ost_json_text(sweep->cases[k].name));
     for (int w = 0; w < sweep->watch_count; w++)
         json_array_append_new(watches, ost_json_text(sweep->watch[w]));
-    for (int r = 0; r < sweep->run_count; r++)
+    for (int r = 0; r < sweep->done; r++)
         json_array_append_new(runs, run_json(sweep, &sweep->run[r]));
     json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "case", sweep->path, "keys", keys, "load_cases",
                                  cases, "watched", watches, "warnings", ost_json_warnings(sweep->ctx), "runs", runs);
