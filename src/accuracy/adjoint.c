@@ -253,7 +253,8 @@ static OstStatus find_surplus(Search *search, const Wanted *wanted, const double
         return OST_SUCCESS;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_third, problem->mesh->owned_tets)));
     OstStatus status = ost_search_displacement(search);
-    OST_THEN(ost_search_share(search, ost_search_true_square(search, square), of_third));
+    square = ost_search_true_square(search, square);
+    OST_THEN(ost_search_share(search, &square, of_third));
     if (of_second)
         OST_THEN(keep_orders(search, of_second, of_third, adjoint));
     if (wanted->tet_share)

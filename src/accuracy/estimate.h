@@ -105,6 +105,13 @@ const double *ost_adjoint_pressure(const OstAdjoint *adjoint);
  * theory. */
 OstStatus ost_estimate_share(OstEstimate *estimate, const OstProblem *problem, OstEstimate **shared);
 
+/* Local. Keeps what ost_estimate_find finds last, for loads of which this is a part. Of linear theory. */
+void ost_estimate_keep(OstEstimate *estimate);
+
+/* Local. The load is the sum of those of other estimates, which keep what they found until this one is destroyed, each
+ * times a factor. Where their residuals add up to this one's, so do their errors, and no steps are taken. */
+void ost_estimate_add_up(OstEstimate *estimate, int count, OstEstimate *const *part, const double *factor);
+
 void ost_estimate_destroy(OstEstimate **estimate);
 
 #endif

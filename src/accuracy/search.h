@@ -16,16 +16,32 @@ typedef struct Enough {
     int by_left; /* does what is left on the functions tell before? */
 } Enough;
 
+enum { OST_MOST_PARTS = 16 };
+
+/* An error that was found, for loads that are sums (accuracy/sum.c): over `size`, as OstSteps has it. */
+typedef struct OstKeptError {
+    double *rows;
+    float *functions, *residual;
+    double size, square;    /* |e|² in the case's units, as extrapolated */
+    double stretch, longer; /* the same over that of the tets; Search.longer */
+    int is_settled, is_known;
+} OstKeptError;
+
 typedef struct OstEstimate {
     const OstProblem *problem;
     int is_shared; /* is all but the loads another's? */
     OstComplement complement;
     OstSurplusLoads loads;
     OstOperator stiffness;
-    float *factor;                    /* of the functions' blocks, once they are known */
-    int has_factor;                   /* of linear theory */
-    int knows_orders;                 /* do the orders of u tell what orders above the next add to e? */
-    OstEarlier *earlier;              /* what was found for other loads; or NULL */
+    float *factor;       /* of the functions' blocks, once they are known */
+    int has_factor;      /* of linear theory */
+    int knows_orders;    /* do the orders of u tell what orders above the next add to e? */
+    OstEarlier *earlier; /* what was found for other loads; or NULL */
+    int keeps;           /* is what is found kept, for loads that are sums? */
+    OstKeptError kept;
+    int part_count; /* the load is the sum of those of other estimates, times factors; 0: of none */
+    struct OstEstimate *part[OST_MOST_PARTS];
+    double part_factor[OST_MOST_PARTS];
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
 } OstEstimate;
 
@@ -34,6 +50,8 @@ typedef struct Search {
     OstEstimate *estimate;
     double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
     double higher;  /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
+    double stretch; /* |e|² over that of the tets, where it is known before; else 0 */
+    double of_tets; /* |e|² as tets have it, in the case's units, once they have been visited */
     double energy;  /* of this rank's tets, under u; NAN: not known */
     int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
 } Search;
@@ -61,8 +79,9 @@ double ost_search_true_square(const Search *search, double square);
 /* Collective. steps.u: e at the nodes. */
 OstStatus ost_search_displacement(Search *search);
 
-/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u. */
-OstStatus ost_search_share(Search *search, double square, double *tet_error);
+/* Collective. Each tet's share of `square`, of the error whose nodes' part is steps.u. The square is found by the way
+ * where its ratio to the tets' is known (search->stretch). */
+OstStatus ost_search_share(Search *search, double *square, double *tet_error);
 
 /* Of orders above the next (accuracy/orders.c): known of quadratic tets, but of nearly incompressible ones. */
 int ost_orders_are_known(const OstEstimate *estimate);
@@ -92,6 +111,19 @@ OstStatus ost_orders_of_product(Search *search, const double *u, const double *t
 
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);
+
+/* The errors of loads add up as the loads do (accuracy/sum.c): they are linear in them, whatever steps found them. */
+
+/* Collective. Keeps the residual of a search before its first step; and then the error found, whose square is |e|² in
+ * the case's units. `is_settled`: by ost_steps_settle. Nothing where the estimate is not to keep it. */
+OstStatus ost_sum_keep_residual(const Search *search);
+OstStatus ost_sum_keep_error(const Search *search, double square, int is_settled);
+
+/* Collective. Takes the sum of what other estimates have kept for the error, where their residuals add up to this one's
+ * (*found). Is one that is settled needed? */
+OstStatus ost_sum_take(Search *search, int needs_settled, int *found);
+
+void ost_sum_clear(OstKeptError *kept);
 
 /* A displacement (3 × node_count, ghosts included) whose pressure the problem's field has. */
 typedef struct OstState {

@@ -87,4 +87,7 @@ OstStatus ost_solver_precondition(OstSolver *solver, OstCyclePart part, const do
 int ost_solver_shares(const OstSolver *solver);
 OstStatus ost_solver_share(const OstSolver *solver, OstSolver **shared);
 
+/* Local. Takes over what solves of another that uses the same have found of the smallest eigenvalue. */
+void ost_solver_learn(OstSolver *solver, const OstSolver *other);
+
 #endif

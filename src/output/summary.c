@@ -74,8 +74,11 @@ static void print_residual(const OstSolveReport *report)
 static void print_solve(const OstResult *result)
 {
     const OstSolveReport *report = &result->solve;
-    printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
-           report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
+    if (report->stopped && report->steps == 0) /* none was tried */
+        printf("  solver           the sum of answers to other load cases, each times a factor\n");
+    else
+        printf("  solver           %s, %d iteration%s, setup %.3f s, solve %.3f s\n", ost_method_name(report->method),
+               report->iterations, plural(report->iterations), report->setup_seconds, report->solve_seconds);
     printf("  engine           %s\n", report->engine);
     print_stop(report, &result->answer);
     print_strategies(report);

@@ -147,10 +147,23 @@ static OstStatus ask_mixed(void *data, const double *u, double error, double *ne
     return stop->inner->ask(stop->inner->data, u, error, next);
 }
 
+/* The displacement of what was solved for. */
+static OstStatus tell_displacement(const OstAnalysis *analysis, OstStatus solved, OstResult *result)
+{
+    const OstProblem *problem = analysis->problem;
+    const OstLinear *linear = analysis->work;
+    OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
+    if (linear->volume)
+        OST_TRY(tell_pressure(analysis, result));
+    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
+    if (result->reached && problem->free_body)
+        OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    return OST_SUCCESS;
+}
+
 /* Solves from 0 or, to go on, from linear->v. */
 static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *stop, int goes_on, OstResult *result)
 {
-    const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     const int before = goes_on ? result->solve.iterations : 0;
     const double seconds = goes_on ? result->solve.solve_seconds : 0.0;
@@ -165,13 +178,60 @@ static OstStatus run_solver(const OstAnalysis *analysis, const OstErrorStop *sto
     ost_solver_aim(linear->stiffness.solver, (OstSolverAim){0});
     result->solve.iterations += before;
     result->solve.solve_seconds += seconds;
-    OST_TRY(ost_problem_displacement(problem, 1.0, linear->v, result->displacement));
-    if (linear->volume)
-        OST_TRY(tell_pressure(analysis, result));
-    result->reached = solved == OST_SUCCESS || solved == OST_NOT_CONVERGED;
-    if (result->reached && problem->free_body)
-        OST_TRY(ost_free_body_centre(problem->mesh, result->displacement));
+    OST_TRY(tell_displacement(analysis, solved, result));
     return solved;
+}
+
+/* What the solver would report of v, with the error that those of the parts add up to at most. */
+static OstStatus report_sum(const OstAnalysis *analysis, OstSolveReport *report)
+{
+    const OstLoadSum *sum = analysis->sum;
+    const OstLinear *linear = analysis->work;
+    const OstBlockMatrix *matrix = analysis->problem->system->matrix;
+    const size_t unknowns = 3 * (size_t)matrix->rows;
+    double squares[3] = {0.0}, *room = NULL;
+    *report = sum->result[0]->solve;
+    report->iterations = report->iterations_saved = report->steps = 0;
+    report->solve_seconds = report->algebraic_error = report->algebraic_bound = 0.0;
+    for (int k = 0; k < sum->count; k++) {
+        const OstSolveReport *part = &sum->result[k]->solve;
+        report->algebraic_error += fabs(sum->factor[k]) * part->algebraic_error;
+        report->algebraic_bound += fabs(sum->factor[k]) * part->algebraic_bound;
+        report->condition_estimate = fmax(report->condition_estimate, part->condition_estimate);
+        report->rounding_limited |= part->rounding_limited;
+    }
+    OST_TRY(ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &room, unknowns + 3 * (size_t)matrix->columns)));
+    double *u = room + unknowns;
+    memcpy(u, linear->v, unknowns * sizeof *u);
+    OstStatus status = ost_block_matrix_apply(matrix, u, room);
+    for (size_t i = 0; i < unknowns; i++) {
+        squares[0] += (linear->rhs[i] - room[i]) * (linear->rhs[i] - room[i]);
+        squares[1] += linear->rhs[i] * linear->rhs[i];
+        squares[2] += linear->v[i] * room[i];
+    }
+    OST_FREE(room);
+    OST_THEN(ost_sum(analysis->ctx, 3, squares));
+    report->relative_residual = sqrt(squares[0] / squares[1]);
+    report->error_estimate = report->energy_error = report->algebraic_error / sqrt(squares[2]);
+    return status;
+}
+
+/* The answer as a sum of others; *suffices, if the stop says so. */
+static OstStatus add_up(const OstAnalysis *analysis, const OstErrorStop *stop, OstResult *result, int *suffices)
+{
+    const OstLoadSum *sum = analysis->sum;
+    OstLinear *linear = analysis->work;
+    double next = 0.0;
+    memset(linear->v, 0, 3 * (size_t)analysis->problem->system->matrix->rows * sizeof *linear->v);
+    for (int k = 0; k < sum->count; k++) {
+        const OstLinear *part = sum->of[k]->work;
+        for (size_t i = 0; i < 3 * (size_t)analysis->problem->system->matrix->rows; i++)
+            linear->v[i] += sum->factor[k] * part->v[i];
+    }
+    OST_TRY(report_sum(analysis, &result->solve));
+    OST_TRY(stop->ask(stop->data, linear->v, result->solve.algebraic_error, &next));
+    *suffices = next >= result->solve.algebraic_error;
+    return *suffices ? tell_displacement(analysis, OST_SUCCESS, result) : OST_SUCCESS;
 }
 
 /* `error`: becomes that of the displacement, 3 × node_count; or NULL. */
@@ -219,7 +279,11 @@ static OstStatus solve_to_stop(const OstAnalysis *analysis, OstSolveStop *stop, 
 {
     enum { ROUNDS = 3 };
     for (int round = 0; round < ROUNDS; round++) {
-        OST_TRY(run_solver(analysis, &stop->stop, round > 0 || begins_at_start(analysis), result));
+        int is_sum = 0;
+        if (round == 0 && analysis->sum)
+            OST_TRY(add_up(analysis, &stop->stop, result, &is_sum));
+        if (!is_sum)
+            OST_TRY(run_solver(analysis, &stop->stop, round > 0 || analysis->sum || begins_at_start(analysis), result));
         if (!result->solve.stopped)
             return OST_SUCCESS;
         OST_TRY(find_errors(analysis, result, fmax(small_displacement * result->answer.displacement, DBL_MIN), error,

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_SOLVE_STRATEGY_H
 
 #include "accuracy/estimate.h"
+#include "core/together/together.h"
 #include "guard/guard.h"
 #include "orthostat/analysis.h"
 #include "problem/problem.h"
@@ -21,6 +22,14 @@ typedef struct OstStrategy {
     void (*release)(OstAnalysis *analysis);
 } OstStrategy;
 
+/* A right-hand side that is a sum of others, each times a factor, which have been solved for. */
+typedef struct OstLoadSum {
+    int count;
+    double factor[OST_MOST_TOGETHER];
+    const OstAnalysis *of[OST_MOST_TOGETHER];
+    const OstResult *result[OST_MOST_TOGETHER];
+} OstLoadSum;
+
 struct OstAnalysis {
     OstContext *ctx;
     OstProblem *problem;
@@ -33,6 +42,7 @@ struct OstAnalysis {
     int leaves_reactions;   /* watched ones have no error until ost_analysis_find_reactions is called */
     OstAnalysis *company;   /* the one whose solver this shares with others that run beside it; linear theory alone will
                                do. NULL: it is alone */
+    const OstLoadSum *sum;  /* linear theory: what the load is a sum of; or NULL */
     const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
 };
 

@@ -234,6 +234,47 @@ static void cases_of_a_company_share_what_reactions_take(void **state)
     assert_true(together < 0.25 * alone);
 }
 
+static const char sums[] =
+    "mesh: {block: {size: [3, 1, 1], divisions: [12, 4, 4]}}\n"
+    "materials: [{region: all, youngs_modulus: [100, 8, 5], poissons_ratio: 0.3, axes: {euler: {degrees: [20, 30, "
+    "0]}}}]\n"
+    "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+    "large_rotation: off\n"
+    "solver: {method: metric, coarsest_unknowns: 200}\n"
+    "cases:\n"
+    "  - {name: one, loads: [{on: {boundary: xmax}, total_force: [0, 2e-3, -1e-3]}]}\n"
+    "  - {name: pressed, loads: [{on: {boundary: zmax}, pressure: 1e-3}]}\n"
+    "  - {name: other, loads: [{on: {boundary: xmax}, total_force: [1e-3, 0, 2e-3]}]}\n"
+    "  - {name: both, loads: [{on: {boundary: xmax}, total_force: [1e-3, 2e-3, 1e-3]}]}\n"
+    "  - {name: mixed, loads: [{on: {boundary: xmax}, total_force: [3e-3, -2e-3, 7e-3]}, {on: {boundary: zmax}, "
+    "pressure: 2e-3}]}\n";
+
+/* Loads that are sums of others are not solved for again, and their errors add up. */
+static void loads_that_are_sums_take_no_iterations(void **state)
+{
+    compare_with_single_runs(sums, "", 1U << OST_FIELD_ERROR, 1e-2, 0);
+    OstCase *c = read_case(sums, "watch: {tip: {displacement: {nearest: [3, 1, 1]}, component: z}}\nelement: {order: 2}\n");
+    OstScene *scene = NULL;
+    OstLoadCases *cases = NULL;
+    OstResult *result[5];
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_load_cases_create(scene, &cases));
+    for (int k = 0; k < 5; k++) {
+        assert_success(ost_load_cases_solve(cases, 1U << OST_FIELD_ERROR, &result[k]));
+        assert_true((result[k]->solve.iterations == 0) == (k > 2));
+    }
+    for (OstLocal i = 0; i < 3 * scene->mesh->owned_nodes; i++) {
+        assert_close(result[3]->displacement[i], result[0]->displacement[i] + result[2]->displacement[i], 1e-9);
+        assert_close(result[3]->surplus[i], result[0]->surplus[i] + result[2]->surplus[i],
+                     0.1 * result[3]->answer.displacement * result[3]->largest_displacement);
+    }
+    for (int k = 0; k < 5; k++)
+        ost_result_destroy(&result[k]);
+    ost_load_cases_destroy(&cases);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
 static void a_case_that_fails_keeps_no_other_from_being_solved(void **state)
 {
     static const char text[] = "mesh: {block: {size: [2, 1, 1], divisions: [4, 2, 2]}}\n"
@@ -272,6 +313,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(ten_cases_are_ten_runs),
     cmocka_unit_test(cases_of_a_company_read_matrices_once_for_all),
     cmocka_unit_test(cases_of_a_company_share_what_reactions_take),
+    cmocka_unit_test(loads_that_are_sums_take_no_iterations),
     cmocka_unit_test(a_case_that_fails_keeps_no_other_from_being_solved),
 };
 

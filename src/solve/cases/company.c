@@ -17,6 +17,9 @@
 static const double share_of_each = 0.6, share_of_free = 0.5;
 
 typedef struct Member {
+    struct Member *part[OST_MOST_TOGETHER]; /* solved for before: the load is their sum */
+    int parts;                              /* 0: it is none */
+    OstLoadSum sum;
     OstCompanion *companion;
     OstProblem *problem; /* with the common stiffness */
     OstSystem system;    /* the common one, with this problem's supports */
@@ -97,31 +100,175 @@ static OstStatus join(OstAnalysis *analysis, Member *member)
     return ost_agree(ctx, status);
 }
 
+/* --- loads that are sums of others --- */
+
+/* What is left of a right-hand side, over it, where it is taken for a sum: by the products of all, and itself. */
+static const double small_square = 1e-10, small_left = 1e-8;
+
+/* Parts are solved to this share of the error that would do alone, as they add up. */
+static const double of_part = 0.3;
+
+/* Could its answer be stopped as those are whose sum it is? */
+static int may_be_sum(const Member *member)
+{
+    return member->analysis.estimate && member->analysis.options.algebraic_fraction > 0.0;
+}
+
+/* The products of all right-hand sides, which are made. */
+static OstStatus find_products(OstContext *ctx, int count, Member *const *member, double *product)
+{
+    const size_t unknowns = 3 * (size_t)member[0]->system.matrix->rows;
+    for (int k = 0; k < count; k++) {
+        OST_TRY(ost_problem_right_hand_side(member[k]->problem, 1.0, member[k]->linear.rhs));
+        for (int j = 0; j <= k; j++)
+            for (size_t i = 0; i < unknowns; i++)
+                product[count * k + j] += member[k]->linear.rhs[i] * member[j]->linear.rhs[i];
+    }
+    return ost_sum(ctx, count * count, product);
+}
+
+/* What is left of a right-hand side without the sum. */
+static OstStatus find_left(OstContext *ctx, const Member *member, double *square)
+{
+    const double *rhs = member->linear.rhs;
+    *square = 0.0;
+    for (size_t i = 0; i < 3 * (size_t)member->system.matrix->rows; i++) {
+        double left = rhs[i];
+        for (int k = 0; k < member->parts; k++)
+            left -= member->sum.factor[k] * member->part[k]->linear.rhs[i];
+        *square += left * left;
+    }
+    return ost_sum(ctx, 1, square);
+}
+
+/* The loads of which no one is a sum of those before, with the Cholesky factor of their products. */
+typedef struct Basis {
+    int size, number[OST_MOST_TOGETHER];
+    Member *member[OST_MOST_TOGETHER];
+    double factor[OST_MOST_TOGETHER][OST_MOST_TOGETHER];
+} Basis;
+
+/* y = L^-1 times the products of a load with the basis; returns the square of what is left of its own. */
+static double reduce(const Basis *basis, const double *product, double own, double *y)
+{
+    for (int j = 0; j < basis->size; j++) {
+        y[j] = product[basis->number[j]];
+        for (int i = 0; i < j; i++)
+            y[j] -= basis->factor[j][i] * y[i];
+        y[j] /= basis->factor[j][j];
+        own -= y[j] * y[j];
+    }
+    return own;
+}
+
+/* Is a load that seems to be a sum one to rounding? Then its parts keep what it takes from them. */
+static OstStatus take_parts(OstContext *ctx, const Basis *basis, const double *y, double own, Member *member)
+{
+    double *factor = member->sum.factor, square;
+    for (int j = basis->size - 1; j >= 0; j--) { /* L^-T y */
+        factor[j] = y[j];
+        for (int i = j + 1; i < basis->size; i++)
+            factor[j] -= basis->factor[i][j] * factor[i];
+        factor[j] /= basis->factor[j][j];
+    }
+    memcpy(member->part, basis->member, sizeof member->part);
+    member->parts = basis->size;
+    OST_TRY(find_left(ctx, member, &square));
+    if (!(square <= small_left * small_left * own))
+        member->parts = 0;
+    for (int j = 0; j < member->parts; j++) {
+        ost_estimate_keep(member->part[j]->analysis.estimate);
+        member->part[j]->analysis.options.algebraic_fraction = of_part * member->analysis.options.algebraic_fraction;
+    }
+    return OST_SUCCESS;
+}
+
+static OstStatus find_sums(OstContext *ctx, int count, Member *const *member)
+{
+    double product[OST_MOST_TOGETHER * OST_MOST_TOGETHER] = {0.0}, y[OST_MOST_TOGETHER];
+    Basis basis = {.size = 0};
+    OST_TRY(find_products(ctx, count, member, product));
+    for (int k = 0; k < count; k++) {
+        const double own = product[count * k + k];
+        if (!(own > 0.0) || !may_be_sum(member[k]))
+            continue;
+        const double left = reduce(&basis, product + (size_t)count * (size_t)k, own, y);
+        if (left > small_square * own) {
+            memcpy(basis.factor[basis.size], y, (size_t)basis.size * sizeof *y);
+            basis.factor[basis.size][basis.size] = sqrt(left);
+            basis.number[basis.size] = k;
+            basis.member[basis.size++] = member[k];
+        } else
+            OST_TRY(take_parts(ctx, &basis, y, own, member[k]));
+    }
+    return OST_SUCCESS;
+}
+
+/* The parts must have come through, and have stopped at a known error. */
+static void take_sum(Member *member)
+{
+    OstEstimate *estimate[OST_MOST_TOGETHER];
+    int known = 1;
+    member->sum.count = member->parts;
+    for (int k = 0; k < member->parts; k++) {
+        const OstResult *result = member->part[k]->companion->result;
+        member->sum.of[k] = &member->part[k]->analysis;
+        member->sum.result[k] = result;
+        estimate[k] = member->part[k]->analysis.estimate;
+        known &= result && result->solve.stopped && result->solve.algebraic_error > 0.0;
+    }
+    if (!known)
+        return;
+    for (int k = 0; k < member->parts; k++)
+        ost_solver_learn(member->linear.stiffness.solver, member->part[k]->linear.stiffness.solver);
+    ost_estimate_add_up(member->analysis.estimate, member->parts, estimate, member->sum.factor);
+    member->analysis.sum = &member->sum;
+}
+
 static void solve(void *data, int number)
 {
-    Member *member = (Member *)data + number;
+    Member *member = ((Member **)data)[number];
     OstCompanion *companion = member->companion;
     if (ost_analysis_solve(&member->analysis, companion->fields, &companion->result) != OST_SUCCESS)
         ost_result_destroy(&companion->result);
 }
 
+/* First those whose loads are no sums of others. */
+static OstStatus solve_all(OstContext *ctx, int count, Member *const *member)
+{
+    Member *turn[OST_MOST_TOGETHER];
+    OstStatus status = find_sums(ctx, count, member);
+    for (int sums = 0; sums < 2 && status == OST_SUCCESS; sums++) {
+        int in_turn = 0;
+        for (int k = 0; k < count; k++)
+            if ((member[k]->parts > 0) == sums)
+                turn[in_turn++] = member[k];
+        for (int k = 0; k < in_turn && sums; k++)
+            take_sum(turn[k]);
+        if (in_turn > 0)
+            status = ost_together_run(ctx, in_turn, solve, turn);
+    }
+    return status;
+}
+
 OstStatus ost_company_solve(OstAnalysis *analysis, int count, OstCompanion *companion)
 {
-    Member *member = NULL;
-    int joined = 0;
+    Member *member = NULL, *joined[OST_MOST_TOGETHER];
+    int joining = 0;
     OstStatus status = ost_agree(analysis->ctx, OST_NEW(analysis->ctx, &member, count));
     for (int k = 0; k < count && status == OST_SUCCESS; k++) {
-        member[joined].companion = &companion[k];
-        if (join(analysis, &member[joined]) == OST_SUCCESS)
-            joined++;
-        else { /* its own turn will tell why */
-            release(&member[joined]);
-            memset(&member[joined], 0, sizeof *member);
+        member[joining].companion = &companion[k];
+        if (join(analysis, &member[joining]) == OST_SUCCESS) {
+            joined[joining] = &member[joining];
+            joining++;
+        } else { /* its own turn will tell why */
+            release(&member[joining]);
+            memset(&member[joining], 0, sizeof *member);
         }
     }
-    if (joined > 0)
-        OST_THEN(ost_together_run(analysis->ctx, joined, solve, member));
-    for (int k = 0; k < joined; k++)
+    if (joining > 0)
+        OST_THEN(solve_all(analysis->ctx, joining, joined));
+    for (int k = 0; k < joining; k++)
         release(&member[k]);
     OST_FREE(member);
     return status;
