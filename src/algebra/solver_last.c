@@ -39,7 +39,8 @@ OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *repo
 OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report)
 {
     const OstMethod fastest = ost_solver_fastest(solver, report);
-    solver->fine = fastest != OST_METHOD_AUTO && !solver->fine && !solver->saddle;
+    const int may = fastest == OST_METHOD_METRIC || fastest == OST_METHOD_STRONG;
+    solver->fine = may && !solver->fine && !solver->saddle;
     return solver->fine ? OST_METHOD_STRONG : fastest;
 }
 
