@@ -58,7 +58,8 @@ OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u
  * iteration costs; AUTO if none has come so far. */
 OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *report);
 
-/* Local. The same, but STRONG with small aggregates on all levels comes first, of which solver->fine tells. */
+/* Local. The same, but STRONG with small aggregates on all levels (solver->fine) comes before METRIC and STRONG for
+ * linear tets. */
 OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report);
 
 /* Local. Says that no other strategy is left, and what this one costs. */

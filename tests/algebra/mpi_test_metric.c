@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/rigid_modes.h"
+#include "algebra/multigrid/metric.h"
 #include "algebra/solver.h"
+#include "algebra/solver_options.h"
 #include "elastic_block.h"
 #include "support.h"
 
@@ -193,6 +195,60 @@ static void parts_too_small_to_aggregate_are_solved_by_the_smoother(void **state
     }
 }
 
+/* One cycle on the right-hand side, in scaled unknowns; `z` has room for 3 × rows. */
+static void apply_cycle(const OstMetric *metric, const double *force, double *z)
+{
+    OstCgSystem system;
+    OstPreconditioner cycle;
+    ost_metric_system(metric, &system, &cycle);
+    assert_success(cycle.apply(cycle.data, force, z));
+}
+
+/* An interval of the Chebyshev polynomials that ends too low makes the cycle indefinite. */
+static void strong_is_as_careful_where_it_is_built_anew(void **state)
+{
+    const ElasticBlock block = {.bricks = {9, 8, 8}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
+    ElasticProblem problem;
+    OstMetric *grown = NULL, *built = NULL;
+    OstSolverOptions planned = ost_solver_default_options(), metric, strong;
+    planned.coarsest_unknowns = 100;
+    ost_solver_strategy_options(&planned, OST_METHOD_METRIC, &metric);
+    ost_solver_strategy_options(&planned, OST_METHOD_STRONG, &strong);
+    assert_success(elastic_create(ctx, &block, &problem));
+    double *expected = new_solution(&problem), *z = new_solution(&problem);
+    assert_success(ost_metric_create(problem.matrix, &problem.geometry, &metric, &grown));
+    ost_metric_strengthen(grown, &strong);
+    assert_success(ost_metric_create(problem.matrix, &problem.geometry, &strong, &built));
+    apply_cycle(grown, problem.force, expected);
+    apply_cycle(built, problem.force, z);
+    for (OstLocal i = 0; i < 3 * problem.matrix->rows; i++)
+        assert_true(fabs(z[i] - expected[i]) <= 1e-12 * fabs(expected[i]));
+    OST_FREE(expected, z);
+    ost_metric_destroy(&grown);
+    ost_metric_destroy(&built);
+    elastic_destroy(&problem);
+}
+
+static void levels_without_factors_are_coarsened_slowly(void **state)
+{
+    const ElasticBlock block = {.bricks = {16, 8, 8}, .size = {2, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
+    ElasticProblem problem;
+    OstSolverOptions planned = ost_solver_default_options(), strong;
+    OstSolveReport report[2];
+    planned.coarsest_unknowns = 100;
+    assert_success(elastic_create(ctx, &block, &problem));
+    for (planned.fine = 0; planned.fine < 2; planned.fine++) {
+        OstMetric *metric = NULL;
+        ost_solver_strategy_options(&planned, OST_METHOD_STRONG, &strong);
+        assert_success(ost_metric_create(problem.matrix, &problem.geometry, &strong, &metric));
+        ost_metric_report(metric, &report[planned.fine]);
+        ost_metric_destroy(&metric);
+    }
+    const OstGlobal *many = report[1].level_unknowns, *few = report[0].level_unknowns;
+    assert_true(2 * many[1] > 3 * few[1] && 6 * many[2] > many[1] && 6 * few[2] < few[1]);
+    elastic_destroy(&problem);
+}
+
 static void a_bad_metric_is_refused_on_all_ranks(void **state)
 {
     const ElasticBlock block = {.bricks = {3, 3, 8}, .size = {1, 1, 1}, .modulus = 1.0, .poisson = 0.3, .held = 1};
@@ -218,6 +274,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_matrix_below_the_coarsest_size_is_solved_directly),
     cmocka_unit_test(a_matrix_of_one_row_is_solved),
     cmocka_unit_test(parts_too_small_to_aggregate_are_solved_by_the_smoother),
+    cmocka_unit_test(strong_is_as_careful_where_it_is_built_anew),
+    cmocka_unit_test(levels_without_factors_are_coarsened_slowly),
     cmocka_unit_test(a_bad_metric_is_refused_on_all_ranks),
 };
 

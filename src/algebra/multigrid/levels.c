@@ -41,8 +41,8 @@ static const double row_share = 1.0 / 3.0, most_coarse_nodes = 27.0, most_below_
 
 /* Where no factors fit into memory, coarse aggregates of so many nodes take the place of a factored second level.
  * Linear tets at 0.999 of the border of stability, E3 x 1e6 along circles: a tube of 16,632 unknowns takes 74
- * iterations with the second level factored, 525 by METRIC and 205 by STRONG with these; of 60,000 METRIC with these
- * takes 295. */
+ * iterations with the second level factored, 525 by METRIC and 207 by STRONG with these; one of about 60,000 takes 236
+ * with these. */
 static const double few_coarse_nodes = 3.0;
 
 /* The columns of a plate of quadratic tets are nodes of a flat mesh, whose factors are small: they are not coarsened
