@@ -54,6 +54,10 @@ OstStatus ost_settle_buckling(const OstYaml *yaml, const OstYamlNode *node, OstC
         return ost_yaml_raise(yaml, node,
                               "the body buckles under the load of one linear answer, and a path has many; leave out "
                               "'buckling' or 'path'");
+    if (c->buckling_modes > 0 && c->free_body)
+        return ost_yaml_raise(yaml, node,
+                              "a free body that is pressed turns round before it buckles; constrain six of its "
+                              "components, or leave buckling out");
     for (int m = 0; m < c->buckling_modes && !c->named_fields; m++)
         c->output_fields |= 1U << (OST_FIELD_BUCKLING_MODE_1 + m);
     return OST_SUCCESS;

@@ -287,6 +287,7 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "buckling: on\npath: {steps: 2}\n",
                    "3:11: the body buckles under the load of one linear answer, and a path has many; leave out "
                    "'buckling' or 'path'");
+    assert_refused(CUBE STEEL "constraints: free_body\nbuckling: on\n", "4:11: a free body that is pressed turns ...");
     assert_refused(CUBE STEEL "formulation: corotational\n",
                    "3:14: unknown formulation 'corotational'. Known: consistent, classical");
     assert_refused(CUBE STEEL "large_rotation: false\nformulation: classical\n", "4:14: formulation says how ...");

@@ -248,7 +248,7 @@ static OstStatus find_residuals(Search *search)
 
 /* A motion of which the start has this share would have come up if it were as soft as `least`: each iteration makes
  * more of it beside what is there, by the ratio of both at the least. */
-static const double hidden = 1e-5;
+static const double hidden = 1e-3;
 
 static int is_ruled_out(const Search *search, double least, int iterations)
 {
