@@ -94,7 +94,7 @@ static double height(const OstMesh *mesh, OstLocal tet)
 /* Could the body buckle under such strains? A column of one cell through its thickness buckles at a compression of
  * about (thickness / length)² / 5, whatever holds it; no part of a body is thinner than the lowest of its tets, nor
  * longer than the body. Moduli that differ make it softer by as much, and nearly incompressible material is stressed
- * more than it strains. */
+ * more than it strains. On springs a body may tip over that does not strain at all. */
 static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, int *yes)
 {
     const OstMesh *mesh = problem->mesh;
@@ -104,12 +104,14 @@ static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, 
         square += (high[i] - low[i]) * (high[i] - low[i]);
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
         least = fmin(least, height(mesh, tet));
+    int sprung = problem->supports->spring != NULL;
     OST_TRY(ost_min(problem->ctx, 1, &least));
+    OST_TRY(ost_max_ints(problem->ctx, 1, &sprung));
     const OstSolverFacts *facts = &problem->facts;
     const double uneven = fmax(fmax(facts->contrast, facts->anisotropy), 1.0) / fmax(1.0 - 2.0 * facts->poisson, 1e-6);
     const double softening = 5.0 * square / (least * least) * result->newton.linear_strain * uneven;
     ost_log(problem->ctx, OST_LOG_VERBOSE, "buckling: softened by no more than %.3g", softening);
-    *yes = softening >= 1.0 / ost_near_buckling(mesh);
+    *yes = softening >= 1.0 / ost_near_buckling(mesh) || sprung;
     return OST_SUCCESS;
 }
 

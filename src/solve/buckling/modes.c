@@ -242,7 +242,7 @@ static OstStatus find_residuals(Search *search)
     }
     OST_TRY(ost_sum(search->problem->ctx, search->block, search->residual));
     for (int c = 0; c < search->block; c++)
-        search->residual[c] = sqrt(fmax(search->residual[c], 0.0));
+        search->residual[c] = sqrt(fabs(search->residual[c])); /* less than 0 of a poor preconditioner */
     return OST_SUCCESS;
 }
 
