@@ -50,18 +50,16 @@ OstStatus ost_read_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCas
 
 OstStatus ost_settle_buckling(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
 {
-    const unsigned first = 1U << OST_FIELD_BUCKLING_MODE_1, every = (1U << OST_MOST_BUCKLING_MODES) * first - first;
-    const unsigned modes = (1U << c->buckling_modes) * first - first;
-    if (c->named_fields & every & ~modes)
-        return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                         "%s:%d: the output holds a buckling mode that is not asked for; say buckling: {modes: %d}",
-                         yaml->path, c->fields_line, OST_MOST_BUCKLING_MODES);
     if (c->buckling_modes > 0 && c->path_steps > 0)
         return ost_yaml_raise(yaml, node,
                               "the body buckles under the load of one linear answer, and a path has many; leave out "
                               "'buckling' or 'path'");
-    if (!c->named_fields)
-        c->output_fields |= modes;
+    if (c->buckling_modes > 0 && c->free_body)
+        return ost_yaml_raise(yaml, node,
+                              "a free body that is pressed turns round before it buckles; constrain six of its "
+                              "components, or leave buckling out");
+    for (int m = 0; m < c->buckling_modes && !c->named_fields; m++)
+        c->output_fields |= 1U << (OST_FIELD_BUCKLING_MODE_1 + m);
     return OST_SUCCESS;
 }
 

@@ -2,6 +2,7 @@
 #include "output/summary.h"
 
 #include "output/probe_files.h"
+#include "solve/buckling/buckling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -223,19 +224,22 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
     return 1;
 }
 
-/* Below this load factor what is not in the scene, as a column's own curvature, may matter more than what is. */
-static const double near_buckling = 1.25;
-
+/* Near buckling what is not in the scene, as a column's own curvature, may matter more than what is. */
 static int warn_of_buckling(const OstResult *result, char text[OST_LONGEST_WARNING])
 {
     const OstBuckling *buckling = &result->buckling;
-    if (!buckling->known || !(buckling->factor[0] < near_buckling) || result->newton.jumps > 0)
+    if (!buckling->known || !(buckling->factor[0] < ost_near_buckling(result->mesh)) || result->newton.jumps > 0)
         return 0;
     if (buckling->factor[0] < 1.0)
         snprintf(text, OST_LONGEST_WARNING, "by linear theory the body buckles at %.4g times this load: %s",
                  buckling->factor[0],
                  result->newton.used ? "what it does beyond depends on what is not in the scene, as its imperfections"
                                      : "the state at rest that is found is not stable");
+    else if (result->mesh->nodes_per_tet == 4)
+        snprintf(text, OST_LONGEST_WARNING,
+                 "by linear theory the body buckles at %.4g times this load, and that of linear tets, which bend too "
+                 "little: it may buckle far below; set element: {order: 2}",
+                 buckling->factor[0]);
     else
         snprintf(text, OST_LONGEST_WARNING,
                  "by linear theory the body buckles at %.4g times this load: what is not in the scene, as a small "

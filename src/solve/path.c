@@ -113,6 +113,10 @@ static OstStatus decide(OstPath *path, OstResult *result)
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
         OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
         OST_FREE(result->left_out, result->left_out_reaction); /* of that time alone */
+        if (result->buckling.known)
+            ost_log(path->ctx, OST_LOG_NORMAL,
+                    "by linear theory the body buckles at %.4g times what acts at t = %.4g: the path is Newton's",
+                    result->buckling.factor[0], strained);
         result->buckling = (OstBuckling){0};
         path->judged.linear_change = result->newton.linear_change;
         path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_error);

@@ -34,7 +34,7 @@ static void an_unknown_key_comes_with_the_nearest(void **state)
         "mehs: 1\n",
         "1:1: unknown key 'mehs' in the case; did you mean 'mesh'? Known keys: title, mesh, "
         "element, materials, constraints, springs, loads, watch, accuracy, solver, output, path, large_rotation, "
-        "formulation, verify, sweep, cases");
+        "formulation, buckling, verify, sweep, cases");
     assert_refused(CUBE STEEL "accuracy: {relative_eror: 0.01}\n",
                    "3:12: unknown key 'relative_eror' in accuracy; did you mean 'relative_error'? Known keys: "
                    "relative_residual, algebraic_fraction, out_of_reach, relative_error, of");
@@ -282,6 +282,14 @@ static void bad_settings_are_refused(void **state)
     assert_refused(CUBE STEEL "accuracy: {relative_error: 1}\n",
                    "3:28: accuracy.relative_error: found '1', expected a number above 0 and below 1");
     assert_refused(CUBE STEEL "large_rotation: yes\n", "3:17: unknown answer 'yes'. Known: auto, on, off");
+    assert_refused(CUBE STEEL "buckling: maybe\n", "3:11: unknown answer 'maybe'. Known: off, on");
+    assert_refused(CUBE STEEL "buckling: {modes: 4}\n",
+                   "3:19: buckling.modes: found '4', expected a whole number from 1 "
+                   "to 3");
+    assert_refused(CUBE STEEL "buckling: on\npath: {steps: 2}\n",
+                   "3:11: the body buckles under the load of one linear answer, and a path has many; leave out "
+                   "'buckling' or 'path'");
+    assert_refused(CUBE STEEL "constraints: free_body\nbuckling: on\n", "4:11: a free body that is pressed turns ...");
     assert_refused(CUBE STEEL "formulation: corotational\n",
                    "3:14: unknown formulation 'corotational'. Known: consistent, classical");
     assert_refused(CUBE STEEL "large_rotation: false\nformulation: classical\n", "4:14: formulation says how ...");

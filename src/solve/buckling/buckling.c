@@ -11,12 +11,18 @@
 #include <float.h>
 #include <math.h>
 
-const double ost_near_buckling = 1.25;
+double ost_near_buckling(const OstMesh *mesh)
+{
+    return mesh->nodes_per_tet == 4 ? 2.5 : 1.25;
+}
+
+/* Below this load factor linear theory is not taken for the answer. */
+static const double near_enough = 1.25;
 
 /* Of modes that are asked for, and of whether there is one: largest residual, relative to the mode. */
 static const double fine = 5e-3, crude = 0.03;
 
-enum { MOST_ITERATIONS = 200, MOST_TO_JUDGE = 30 };
+enum { MOST_ITERATIONS = 60, MOST_TO_JUDGE = 30 };
 
 static void take(const OstModes *modes, OstResult *result)
 {
@@ -88,7 +94,7 @@ static double height(const OstMesh *mesh, OstLocal tet)
 /* Could the body buckle under such strains? A column of one cell through its thickness buckles at a compression of
  * about (thickness / length)² / 5, whatever holds it; no part of a body is thinner than the lowest of its tets, nor
  * longer than the body. Moduli that differ make it softer by as much, and nearly incompressible material is stressed
- * more than it strains. */
+ * more than it strains. On springs a body may tip over that does not strain at all. */
 static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, int *yes)
 {
     const OstMesh *mesh = problem->mesh;
@@ -98,19 +104,23 @@ static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, 
         square += (high[i] - low[i]) * (high[i] - low[i]);
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
         least = fmin(least, height(mesh, tet));
+    int sprung = problem->supports->spring != NULL;
     OST_TRY(ost_min(problem->ctx, 1, &least));
+    OST_TRY(ost_max_ints(problem->ctx, 1, &sprung));
     const OstSolverFacts *facts = &problem->facts;
     const double uneven = fmax(fmax(facts->contrast, facts->anisotropy), 1.0) / fmax(1.0 - 2.0 * facts->poisson, 1e-6);
     const double softening = 5.0 * square / (least * least) * result->newton.linear_strain * uneven;
     ost_log(problem->ctx, OST_LOG_VERBOSE, "buckling: softened by no more than %.3g", softening);
-    *yes = softening >= 1.0 / ost_near_buckling;
+    *yes = softening >= 1.0 / ost_near_buckling(mesh) || sprung;
     return OST_SUCCESS;
 }
 
 OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result)
 {
-    const OstModesAim aim = {
-        .modes = 1, .tolerance = crude, .least = 1.0 / ost_near_buckling, .most_iterations = MOST_TO_JUDGE};
+    const OstModesAim aim = {.modes = 1,
+                             .tolerance = crude,
+                             .least = 1.0 / ost_near_buckling(problem->mesh),
+                             .most_iterations = MOST_TO_JUDGE};
     OstModes modes;
     int may = 0;
     if (!problem->conservative) /* no energy tells: it may begin to move long before */
@@ -128,7 +138,7 @@ OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstRe
         }
         take(&modes, result);
     }
-    if (result->buckling.factor[0] < ost_near_buckling)
+    if (result->buckling.factor[0] < near_enough)
         result->newton.linear_error = fmax(result->newton.linear_error, 1.0 / result->buckling.factor[0]);
     return OST_SUCCESS;
 }

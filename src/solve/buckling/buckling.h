@@ -20,11 +20,11 @@ void ost_buckling_object(OstResult *result);
 
 /* Collective. Is a linear answer near buckling, or past it? Looks for it only where strains and the shape of the body
  * allow it, and no further than tells; raises result->newton.linear_error to 1 / load factor where that is below
- * ost_near_buckling. Of a mixed form the stiffness is taken without its pressures: the load factor is a lower bound,
+ * 1.25. Of a mixed form the stiffness is taken without its pressures: the load factor is a lower bound,
  * and result->buckling stays empty. A load that has no work function is not judged. */
 OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result);
 
-/* Below this load factor linear theory is not taken for the answer. */
-extern const double ost_near_buckling;
+/* Local. The load factor below which buckling is warned of: twice as high for linear tets, which lock as they bend. */
+double ost_near_buckling(const OstMesh *mesh);
 
 #endif

@@ -242,13 +242,13 @@ static OstStatus find_residuals(Search *search)
     }
     OST_TRY(ost_sum(search->problem->ctx, search->block, search->residual));
     for (int c = 0; c < search->block; c++)
-        search->residual[c] = sqrt(fmax(search->residual[c], 0.0));
+        search->residual[c] = sqrt(fabs(search->residual[c])); /* less than 0 of a poor preconditioner */
     return OST_SUCCESS;
 }
 
 /* A motion of which the start has this share would have come up if it were as soft as `least`: each iteration makes
  * more of it beside what is there, by the ratio of both at the least. */
-static const double hidden = 1e-5;
+static const double hidden = 1e-3;
 
 static int is_ruled_out(const Search *search, double least, int iterations)
 {
