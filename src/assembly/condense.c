@@ -267,7 +267,18 @@ static void count_blocks(const Condensation *c, OstLocal *most, OstLocal *all)
     }
 }
 
-static OstStatus make_rows(const Condensation *c)
+/* Room for at most `all` blocks. */
+static OstStatus make_room(OstBlockMatrix *matrix, OstLocal all)
+{
+    OST_TRY(ost_limit_nonzeros(matrix->ctx, all));
+    OST_TRY(OST_NEW(matrix->ctx, &matrix->row_start, matrix->rows + 1));
+    OST_TRY(OST_NEW(matrix->ctx, &matrix->diagonal, matrix->rows));
+    OST_TRY(OST_NEW(matrix->ctx, &matrix->column, all));
+    return OST_NEW(matrix->ctx, &matrix->value, 9 * (size_t)all);
+}
+
+/* Those of a matrix that is filled again have the same columns. */
+static OstStatus make_rows(const Condensation *c, int is_new)
 {
     OstContext *ctx = c->system->ctx;
     OstBlockMatrix *matrix = c->system->matrix;
@@ -277,14 +288,11 @@ static OstStatus make_rows(const Condensation *c)
     Block *room = NULL;
     OstStatus status = OST_SUCCESS;
     count_blocks(c, &most, &all);
-    OST_TRY_DONE(ost_limit_nonzeros(ctx, all));
     OST_TRY_DONE(OST_NEW(ctx, &column, most));
     OST_TRY_DONE(OST_NEW(ctx, &value, most));
     OST_TRY_DONE(OST_NEW(ctx, &room, most));
-    OST_TRY_DONE(OST_NEW(ctx, &matrix->row_start, matrix->rows + 1));
-    OST_TRY_DONE(OST_NEW(ctx, &matrix->diagonal, matrix->rows));
-    OST_TRY_DONE(OST_NEW(ctx, &matrix->column, all));
-    OST_TRY_DONE(OST_NEW(ctx, &matrix->value, 9 * (size_t)all));
+    if (is_new)
+        OST_TRY_DONE(make_room(matrix, all));
     for (OstLocal row = 0; row < matrix->rows; row++) {
         const OstLocal count = gather_row(c, row, &next, column, value, room);
         for (OstLocal k = 0; k < count; k++, filled++) {
@@ -297,8 +305,10 @@ static OstStatus make_rows(const Condensation *c)
         if (ost_link_of(c->links, c->system->node_of_row[row]))
             stiffen_prescribed(matrix->value + 9 * (size_t)matrix->diagonal[row]);
     }
-    OST_TRY_DONE(OST_RESIZE(ctx, &matrix->column, filled));
-    OST_TRY_DONE(OST_RESIZE(ctx, &matrix->value, 9 * (size_t)filled));
+    if (is_new) {
+        OST_TRY_DONE(OST_RESIZE(ctx, &matrix->column, filled));
+        OST_TRY_DONE(OST_RESIZE(ctx, &matrix->value, 9 * (size_t)filled));
+    }
 done:
     OST_FREE(column);
     OST_FREE(value);
@@ -319,14 +329,13 @@ static OstStatus make_columns(const Condensation *c)
     return OST_SUCCESS;
 }
 
-static void forget_matrix(OstSystem *system)
+static OstStatus make_halo(const Condensation *c)
 {
-    OstBlockMatrix *matrix = system->matrix;
-    OST_FREE(matrix->row_start);
-    OST_FREE(matrix->diagonal);
-    OST_FREE(matrix->column);
-    OST_FREE(matrix->value);
-    ost_halo_destroy(&matrix->halo);
+    OstContext *ctx = c->system->ctx;
+    OstBlockMatrix *matrix = c->system->matrix;
+    OST_TRY(ost_agree(ctx, make_columns(c)));
+    OST_TRY(ost_agree(ctx, ost_halo_create(ctx, matrix->rows, matrix->first_row, c->ghosts, c->ghost, &matrix->halo)));
+    return ost_agree(ctx, ost_halo_import(matrix->halo, sizeof *matrix->label, matrix->label));
 }
 
 static OstStatus condense(Condensation *c)
@@ -339,17 +348,16 @@ static OstStatus condense(Condensation *c)
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(send_entries(c));
     OST_TRY(ost_agree(ctx, list_ghosts(c)));
-    OST_TRY(ost_agree(ctx, make_columns(c)));
-    OST_TRY(ost_agree(ctx, ost_halo_create(ctx, matrix->rows, matrix->first_row, c->ghosts, c->ghost, &matrix->halo)));
-    OST_TRY(ost_agree(ctx, ost_halo_import(matrix->halo, sizeof *matrix->label, matrix->label)));
-    return ost_agree(ctx, make_rows(c));
+    const int is_new = !matrix->row_start;
+    if (is_new)
+        OST_TRY(make_halo(c));
+    return ost_agree(ctx, make_rows(c, is_new));
 }
 
 OstStatus ost_system_condense(OstSystem *system)
 {
     Condensation c = {.system = system, .links = system->supports->links};
     ost_ledger_enter(system->ctx, OST_LEDGER_SUPPORTS);
-    forget_matrix(system);
     const OstStatus status = condense(&c);
     ost_row_numbers_clear(&c.rows);
     OST_FREE(c.entry, c.ghost);

@@ -124,10 +124,8 @@ OstStatus ost_system_fill(OstSystem *system, const OstMaterialField *field)
 OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *field, const OstTangent *tangent)
 {
     OstContext *ctx = system->ctx;
-    if (system->supports->links && tangent)
-        return OST_RAISE(ctx, OST_INVALID_USAGE, "where nodes follow others, the stiffness is that of linear theory");
     if (system->whole) {
-        const OstStatus filled = ost_agree(ctx, ost_system_fill_tangent(system->whole, field, NULL));
+        const OstStatus filled = ost_agree(ctx, ost_system_fill_tangent(system->whole, field, tangent));
         return filled == OST_SUCCESS ? ost_system_condense(system) : filled;
     }
     if (!system->block_of_tet)

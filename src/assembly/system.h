@@ -9,8 +9,7 @@
 #include "orthostat/formulation.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Where nodes
- * follow others (assembly/links/links.h), it is that of T' K T: followers have no row, and the matrix is made anew by
- * each fill. Fully constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+ * follow others (assembly/links/links.h), it is that of T' K T: followers have no row. Fully constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
 typedef struct OstSystem {
     OstContext *ctx;
     const OstMesh *mesh;

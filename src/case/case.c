@@ -65,15 +65,15 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-/* Where nodes follow others, only linear theory is there. */
+/* Of a rigid face, only linear theory is there. */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        if (ost_constraint_links(constraint) && c->large_rotation == OST_LARGE_ROTATION_ON)
+        if (constraint->kind == OST_CONSTRAIN_RIGID && c->large_rotation == OST_LARGE_ROTATION_ON)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: rigid, tied and periodic faces are solved by linear theory alone; say "
-                             "large_rotation: off",
+                             "%s:%d: rigid faces are solved by linear theory alone; say large_rotation: off, or hold "
+                             "or load the face without one",
                              yaml->path, constraint->line);
         if (constraint->kind == OST_CONSTRAIN_RIGID && c->path_steps > 0)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,

@@ -51,7 +51,7 @@ static void count_cases(const OstCase *c, OstEffectFacts *facts)
         const OstCase *one = c->load_cases[k].c;
         int is_linear = 0;
         for (int i = 0; i < one->constraint_count; i++)
-            is_linear |= ost_constraint_links(&one->constraints[i]);
+            is_linear |= one->constraints[i].kind == OST_CONSTRAIN_RIGID;
         for (int i = 0; i < one->load_count; i++)
             is_linear |= one->loads[i].kind == OST_LOAD_DISTRIBUTING;
         facts->linear_cases += is_linear;

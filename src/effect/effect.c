@@ -114,7 +114,7 @@ static int has_links(const OstEffectFacts *f)
 /* Moved couplings are found by superposition of solves for displacements. Several load cases: is each? */
 static int is_solved_linearly(const OstEffectFacts *f)
 {
-    return f->cases > 0 ? f->linear_cases == f->cases : has_links(f) || f->moved_couplings > 0;
+    return f->cases > 0 ? f->linear_cases == f->cases : f->rigid_faces + f->moved_couplings > 0;
 }
 
 /* To what the load cases that are not solved linearly do, says which others there are. */
@@ -127,8 +127,7 @@ static void except_linear(const OstEffectFacts *f, OstEffectState *state)
 }
 
 static const char free_is_linear[] = "a free body is solved linearly";
-static const char links_are_linear[] =
-    "a body with rigid, tied or periodic faces or moved distributing couplings is solved linearly";
+static const char links_are_linear[] = "a body with rigid faces or moved distributing couplings is solved linearly";
 
 /* Why the mixed form is not used, or NULL. */
 static const char *why_not_mixed(const OstEffectFacts *f)
@@ -432,8 +431,7 @@ int ost_effect_on(const OstEffects *effects, OstEffect effect)
 
 const char *ost_effects_why_linear(const OstEffects *effects)
 {
-    static const OstEffect links[] = {OST_EFFECT_RIGID_FACE, OST_EFFECT_TIE, OST_EFFECT_PERIODIC,
-                                      OST_EFFECT_MOVED_COUPLING};
+    static const OstEffect links[] = {OST_EFFECT_RIGID_FACE, OST_EFFECT_MOVED_COUPLING};
     if (ost_effect_on(effects, OST_EFFECT_FREE_BODY))
         return free_is_linear;
     for (size_t k = 0; k < sizeof links / sizeof *links; k++)

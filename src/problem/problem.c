@@ -393,8 +393,8 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
     if (problem->pressures && !problem->coupling)
         OST_TRY(ost_pressure_coupling(problem->pressures, problem->system, problem->field, &problem->coupling));
     else if (problem->pressures && fills)
-        ost_pressure_coupling_at(problem->pressures, problem->system, problem->field,
-                                 problem->formulation == OST_FORMULATION_LINEAR ? NULL : u, problem->coupling);
+        OST_TRY(ost_pressure_coupling_at(problem->pressures, problem->system, problem->field,
+                                         problem->formulation == OST_FORMULATION_LINEAR ? NULL : u, problem->coupling));
     problem->lent |= stiffness != NULL;
     if (stiffness)
         *stiffness = (OstStiffness){.rows = matrix->rows,

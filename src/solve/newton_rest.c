@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "solve/error.h"
@@ -54,26 +55,34 @@ enum { RETRIED = 3 };
 /* Sums over the rows and nodes of this rank. */
 enum { SUM_RESIDUAL, SUM_LOAD, SUM_REACTION, SUM_WORK, SUM_DISPLACEMENT, SUMS };
 
-/* What the supports take of a node's load and internal force is reaction. */
+/* What supports and links take of a node's load and internal force is reaction. */
 static void add_node(const OstNewton *newton, OstLocal node, double sums[SUMS])
 {
     const OstProblem *problem = newton->problem;
     const double *load = newton->load + 3 * (size_t)node, *internal = newton->internal + 3 * (size_t)node;
     const OstLocal row = problem->system->row_of_node[node];
-    double projector[9], force[3], free_part[3], free_load[3];
-    for (int i = 0; i < 3; i++)
-        force[i] = load[i] - internal[i];
+    const double *kept = row >= 0 ? newton->residual + 3 * (size_t)row : NULL;
+    double projector[9], free_load[3];
     ost_supports_get(problem->supports, node, projector, NULL);
-    ost_apply3(projector, force, free_part);
     ost_apply3(projector, load, free_load);
     for (int i = 0; i < 3; i++) {
-        const double kept = row >= 0 ? free_part[i] : 0.0;
-        if (row >= 0)
-            newton->residual[3 * (size_t)row + (size_t)i] = kept;
-        sums[SUM_RESIDUAL] += kept * kept;
-        sums[SUM_LOAD] += row >= 0 ? free_load[i] * free_load[i] : 0.0;
-        sums[SUM_REACTION] += (force[i] - kept) * (force[i] - kept);
+        const double residual = kept ? kept[i] : 0.0, taken = load[i] - internal[i] - residual;
+        sums[SUM_RESIDUAL] += residual * residual;
+        sums[SUM_LOAD] += kept ? free_load[i] * free_load[i] : 0.0;
+        sums[SUM_REACTION] += taken * taken;
     }
+}
+
+static OstStatus find_residual(OstNewton *newton)
+{
+    const size_t count = 3 * (size_t)newton->problem->mesh->owned_nodes;
+    double *force = NULL;
+    OST_TRY(ost_agree(newton->ctx, OST_NEW(newton->ctx, &force, count)));
+    for (size_t i = 0; i < count; i++)
+        force[i] = newton->load[i] - newton->internal[i];
+    const OstStatus status = ost_system_take_rows(newton->problem->system, force, newton->residual);
+    OST_FREE(force);
+    return status;
 }
 
 OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
@@ -89,6 +98,7 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
         ost_problem_load(problem, newton->t, displacement, newton->load);
         OST_TRY(ost_problem_load_work(problem, newton->t, displacement, &work));
     }
+    OST_TRY(find_residual(newton));
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
         add_node(newton, node, sums);
         sums[SUM_WORK] += ost_dot3(newton->load + 3 * (size_t)node, displacement + 3 * (size_t)node);

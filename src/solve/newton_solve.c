@@ -104,6 +104,7 @@ typedef struct Skew {
     OstNewton *newton;
     double *moved;   /* newton->count */
     double *product; /* 3 × owned_nodes */
+    double *of_rows; /* 3 × rows */
 } Skew;
 
 /* y += P S P v on the rows */
@@ -116,14 +117,9 @@ static OstStatus add_skew(void *data, const double *v, double *y)
     memset(skew->product, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof(double));
     OST_TRY(ost_agree(newton->ctx,
                       ost_problem_add_skew(problem, newton->t, newton->displacement, skew->moved, skew->product)));
-    for (OstLocal row = 0; row < problem->system->matrix->rows; row++) {
-        const size_t node = (size_t)problem->system->node_of_row[row];
-        double projector[9], kept[3];
-        ost_supports_get(problem->supports, (OstLocal)node, projector, NULL);
-        ost_apply3(projector, skew->product + 3 * node, kept);
-        for (size_t i = 0; i < 3; i++)
-            y[3 * (size_t)row + i] += kept[i];
-    }
+    OST_TRY(ost_system_take_rows(problem->system, skew->product, skew->of_rows));
+    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
+        y[i] += skew->of_rows[i];
     return OST_SUCCESS;
 }
 
@@ -135,11 +131,11 @@ static OstStatus solve_skew(OstNewton *newton, double forcing, const double *rhs
     const OstSaddle mixed = ost_newton_saddle(newton, rhs);
     OstStatus status = OST_NEW(newton->ctx, &skew.moved, newton->count);
     OST_THEN(OST_NEW(newton->ctx, &skew.product, 3 * (size_t)mesh->owned_nodes));
+    OST_THEN(OST_NEW(newton->ctx, &skew.of_rows, 3 * (size_t)newton->problem->system->matrix->rows));
     status = ost_agree(newton->ctx, status);
     OST_THEN(ost_solver_solve_unsymmetric(newton->stiffness->solver, mixed.coupling ? &mixed : NULL, &further, forcing,
                                           rhs, newton->correction, &newton->solve));
-    OST_FREE(skew.moved);
-    OST_FREE(skew.product);
+    OST_FREE(skew.moved, skew.product, skew.of_rows);
     return status;
 }
 

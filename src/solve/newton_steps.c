@@ -98,7 +98,7 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
     OstContext *ctx = problem->ctx;
     const size_t count = ost_newton_state_size(problem), owned = 3 * (size_t)problem->mesh->owned_nodes;
     const size_t rows =
-        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? (size_t)problem->pressures->count : 0);
+        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? ost_problem_pressure_room(problem) : 0);
     OstNewton *made = NULL;
     OstStatus status = OST_NEW(ctx, &made, 1);
     if (status == OST_SUCCESS) {
@@ -197,16 +197,11 @@ static OstStatus move_supports(OstNewton *newton, const OstNewtonState *state)
         newton->direction[i] = state->displacement[i] + share * newton->candidate[i];
     memcpy(newton->load, newton->internal, 3 * (size_t)mesh->owned_nodes * sizeof(double));
     OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, newton->direction, newton->internal)));
-    for (OstLocal row = 0; row < problem->system->matrix->rows; row++) {
-        const size_t node = (size_t)problem->system->node_of_row[row];
-        double projector[9], change[3], kept[3];
-        for (size_t i = 0; i < 3; i++)
-            change[i] = (newton->internal[3 * node + i] - newton->load[3 * node + i]) / share;
-        ost_supports_get(problem->supports, (OstLocal)node, projector, NULL);
-        ost_apply3(projector, change, kept);
-        for (size_t i = 0; i < 3; i++)
-            newton->residual[3 * (size_t)row + i] -= kept[i];
-    }
+    for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
+        newton->load[i] = (newton->internal[i] - newton->load[i]) / share;
+    OST_TRY(ost_system_take_rows(problem->system, newton->load, newton->correction));
+    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
+        newton->residual[i] -= newton->correction[i];
     return ost_newton_is_mixed(newton) ? ost_newton_move_volume(newton, newton->direction, share) : OST_SUCCESS;
 }
 

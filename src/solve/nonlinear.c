@@ -76,6 +76,19 @@ OstStatus ost_nonlinear_advance(OstNewton *newton, double linear_strain, double 
     return OST_RAISE(newton->ctx, status, "%s; %s", reason, question);
 }
 
+int ost_nonlinear_stays_linear(const OstProblem *problem, double linear_error)
+{
+    const OstLinks *links = problem->supports->links;
+    if (!problem->automatic || linear_error <= problem->accuracy)
+        return problem->automatic;
+    if (links && links->gaps)
+        ost_warn(problem->ctx,
+                 "a tie across a gap turns by linear theory alone, so the answer is one of it, off by "
+                 "about %.2g %%: let the faces of the tie meet, and large rotations are solved for",
+                 100.0 * linear_error);
+    return links && links->gaps;
+}
+
 int ost_nonlinear_may_be_mixed(const OstProblem *problem)
 {
     return problem->beyond_linear != OST_FORMULATION_CLASSICAL;
@@ -89,8 +102,10 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
     const size_t nodes = 3 * (size_t)problem->mesh->node_count;
     OST_TRY(ost_agree(problem->ctx, ost_newton_state_create(problem, state)));
     memcpy(state->slope, result->displacement, nodes * sizeof(double));
-    if (problem->pressures)
-        memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->count * sizeof(double));
+    if (problem->pressures) {
+        memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->owned * sizeof(double));
+        OST_TRY(ost_pressure_complete(problem->pressures, state->slope + nodes));
+    }
     state->step = ost_newton_first_step(result->newton.linear_rotation);
     return OST_SUCCESS;
 }
@@ -183,8 +198,10 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(ost_nonlinear_judge(problem, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         OST_TRY(ost_nonlinear_look_closer(analysis, result));
-    if (problem->automatic && result->newton.linear_error <= problem->accuracy)
+    if (ost_nonlinear_stays_linear(problem, result->newton.linear_error)) {
+        result->linear_alone |= problem->supports->links && problem->supports->links->gaps;
         return OST_SUCCESS;
+    }
     if (problem->automatic && ost_buckling_ends(result))
         return OST_SUCCESS;
     if (analysis->company)

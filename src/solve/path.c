@@ -121,7 +121,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
         path->judged.linear_change = result->newton.linear_change;
         path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_error);
     }
-    path->nonlinear = !problem->automatic || path->judged.linear_error > problem->accuracy;
+    path->nonlinear = !ost_nonlinear_stays_linear(problem, path->judged.linear_error);
     return OST_SUCCESS;
 }
 

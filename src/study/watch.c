@@ -382,9 +382,9 @@ static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *r
     if (!result->left_out) {
         if (newton->linear_error > worth_words && change > most_off * fabs(watched->value))
             ost_warn(result->ctx,
-                     "'%s' is %.4g by linear theory, which may be off by %.2g, %.2g %% of the largest displacement; "
-                     "large_rotation: on computes it without",
-                     watch->name, watched->value, change, 100.0 * newton->linear_error);
+                     "'%s' is %.4g by linear theory, which may be off by %.2g, %.2g %% of the largest displacement%s",
+                     watch->name, watched->value, change, 100.0 * newton->linear_error,
+                     result->linear_alone ? "" : "; large_rotation: on computes it without");
         return OST_SUCCESS;
     }
     OST_TRY(find_change(scene, result, watch, &change));

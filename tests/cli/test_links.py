@@ -1,5 +1,6 @@
 """Rigid, tied and periodic faces, against formulas, on one rank and on several."""
 import json
+import math
 import os
 
 from bricks import brick_mesh
@@ -367,6 +368,94 @@ def layers_of_nu_half_are_a_laminate_too():
     check(finished.exit_code == 2 and "xx + yy + zz = 0" in finished.errors, finished.errors)
 
 
+TURNED = """
+mesh: {file: two.msh}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 1200, poissons_ratio: NU}]
+large_rotation: on
+constraints:
+  - {on: {boundary: a_xmin}, displacement: [0, 0, 0]}
+  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}
+loads: [{on: {boundary: b_xmax}, total_force: [0, 0, 15]}]
+watch:
+  tip: {displacement: {nearest: [4, 0.5, 0.5]}, component: z}
+  back: {displacement: {nearest: [4, 0.5, 0.5]}, component: x}
+  force: {reaction: {boundary: a_xmin}, component: z}
+  moment: {reaction: {boundary: a_xmin}, about: [0, 0.5, 0.5], component: y}
+  energy: strain_energy
+accuracy: {relative_residual: 1e-9}
+"""
+
+
+def tied_parts_turn_as_one():
+    """Two bars that bend by 45 degrees: as the merged mesh, and where the meshes differ about so."""
+    folder = new_folder()
+    bars = [("a", (0, 0, 0), (2, 1, 1), (4, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (4, 2, 2), "b")]
+    brick_mesh(os.path.join(folder, "two.msh"), bars)
+    for nu, ranks in ("0.3", (1, 3)), ("0.5", (2,)):
+        text = TURNED.replace("NU", nu)
+        merged = text.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", "")
+        _, expected, _ = solve(merged, folder=folder)
+        values = watched(text, folder, ranks)
+        for name, value in values.items():
+            near(value, expected["watched"][name]["value"], 1e-7, f"nu = {nu}, as the merged mesh: {name}")
+    for more, ranks in ("solver: {method: metric}\n", 1), ("path: {steps: 2}\n", 3):
+        again = watched(TURNED.replace("NU", "0.5") + more, folder, (ranks,))
+        near(again["tip"], values["tip"], 1e-6, f"{more}: the tip")
+    bars[1] = ("b", (2, 0, 0), (2, 1, 1), (4, 4, 4), "b")
+    brick_mesh(os.path.join(folder, "two.msh"), bars)
+    near(watched(TURNED.replace("NU", "0.5"), folder, (2,))["tip"], values["tip"], 5e-3, "the tip of bars whose meshes differ")
+    bars[1] = ("b", (2.1, 0, 0), (2, 1, 1), (4, 4, 4), "b")
+    brick_mesh(os.path.join(folder, "two.msh"), bars)
+    gap = TURNED.replace("NU", "0.3").replace("a_xmax}}", "a_xmax}, tolerance: 0.2}")
+    finished, _, _ = solve(gap, folder=folder)
+    check(finished.exit_code == 2 and "across a gap a tie turns by linear theory alone" in finished.errors, finished.errors)
+    finished, report, _ = solve(gap.replace("rotation: on", "rotation: auto"), folder=folder)
+    check(finished.exit_code == 0 and not report["large_rotation"]["newton"], f"{finished.errors} {report}")
+    check("a tie across a gap turns by linear theory alone" in finished.errors and "large_rotation: on" not in finished.errors, finished.errors)
+
+
+def cell_energy(f):
+    """Of a laminate's cell whose mean deformation gradient is f, in the plane x and z; y is not strained. The layers' strains are
+    Biot's, and differ by what lets the cell rest: a part of the gradient's z column."""
+    def of_layer(young, poisson, g):
+        lame, shear = young * poisson / (1 + poisson) / (1 - 2 * poisson), young / 2 / (1 + poisson)
+        c = [[sum(g[k][i] * g[k][j] for k in range(2)) for j in range(2)] for i in range(2)]
+        root = math.sqrt(c[0][0] * c[1][1] - c[0][1] ** 2)
+        scale = math.sqrt(c[0][0] + c[1][1] + 2 * root)
+        e = (c[0][0] + root) / scale - 1, (c[1][1] + root) / scale - 1, c[0][1] / scale
+        return lame / 2 * (e[0] + e[1]) ** 2 + shear * (e[0] ** 2 + e[1] ** 2 + 2 * e[2] ** 2)
+
+    def energy(a):
+        return sum(of_layer(young, poisson, [[f[0][0], f[0][1] + sign * a[0]], [f[1][0], f[1][1] + sign * a[1]]]) / 2
+                   for young, poisson, sign in ((100, 0.2, 1), (1000, 0.3, -1)))
+
+    a, step = [0.0, 0.0], 0.1
+    while step > 1e-9:  # downhill, along both directions
+        tried = [(a[0] + step * i, a[1] + step * j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        best = min(tried, key=energy)
+        step = step if energy(best) < energy(a) - 1e-16 else step / 2
+        a = best if energy(best) < energy(a) else a
+    return energy(a)
+
+
+def a_layered_cell_strains_far():
+    """The strain is the mean displacement gradient; forces are the energy's derivatives by it."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "layers.msh"), [("", (0, 0, 0), (1, 1, 1), (1, 1, 4), ("soft", "stiff"))])
+    text = CELL.replace("ORDER", "2").replace("STRAIN", "xx: 0.3, zx: 0.2").replace("1e-10", "1e-9") + "large_rotation: on\n"
+    f = [[1.3, 0.2], [0.2, 1.0]]
+    values = watched(text, folder, (1, 3))
+    near(values["energy"], cell_energy(f), 1e-7, "the energy")
+    for name, i, j in ("along", 0, 0), ("shear", 0, 1), ("across", 1, 1):
+        ends = []
+        for change in -1e-3, 1e-3:
+            f[i][j] += change
+            ends.append(cell_energy(f))
+            f[i][j] -= change
+        near(values[name], (ends[1] - ends[0]) / 2e-3, 1e-4, name)
+
+
 # Two cells, whose lowest and highest edges alone are a pair.
 ENDS = "*NODE\n" + "".join(f"{n + 1}, {(0, 1, 1, 0)[n % 4]}, {(0, 0, 1, 1)[n % 4]}, {n // 4}\n" for n in range(12)) + """
 *ELEMENT, TYPE=C3D8, ELSET=soft
@@ -404,7 +493,7 @@ def what_cannot_be_is_refused():
             (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
-            (cell + "large_rotation: on\n", "linear theory alone"),
+            (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}") + "large_rotation: on\n", "linear theory alone"),
             (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
             (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
@@ -434,4 +523,6 @@ a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()
 a_layered_cell_has_the_stiffness_of_a_laminate()
 layers_of_nu_half_are_a_laminate_too()
+tied_parts_turn_as_one()
+a_layered_cell_strains_far()
 what_cannot_be_is_refused()

@@ -227,6 +227,7 @@ void ost_face_search_nearest(const OstFaceSearch *search, const double x[3], Ost
     for (int i = 0; i < 3; i++)
         lever[i] = x[i] - place[i];
     found->distance = ost_norm3(lever);
+    found->gap = found->distance / fmax(best->radius, DBL_MIN);
     found->count = search->nodes;
     memcpy(found->number, best->number, sizeof found->number);
     for (int k = 0; k < search->nodes; k++)

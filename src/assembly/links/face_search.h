@@ -19,6 +19,7 @@ typedef struct OstFacePoint {
     OstGlobal number[6];
     double weight[6][9];
     double distance;
+    double gap; /* that, over the size of the face */
 } OstFacePoint;
 
 /* Local. By the point nearest to x; of a curved face, the one over the nearest point of its three vertices' triangle.

@@ -287,6 +287,7 @@ OstStatus ost_links_complete(OstLinks *links, const OstHeld *held)
     for (size_t i = 0; i < 3 * (size_t)links->mesh->owned_nodes; i++)
         moves |= links->offset[i] != 0.0;
     links->moves = moves;
+    OST_TRY(ost_max_ints(links->ctx, 1, &links->gaps));
     return ost_max_ints(links->ctx, 1, &links->moves);
 }
 

@@ -56,6 +56,7 @@ typedef struct OstLinks {
     unsigned char *leads; /* node_count: does another follow this one? */
     unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */
     double *offset;       /* 3 × node_count: g of followers, and 0 */
+    int gaps;             /* does any node, on any rank, follow a face that it does not lie on? */
     int periodic;         /* are there periodic pairs? On edges of the cell leaders follow others */
     int moves;            /* is any offset not zero, on any rank? */
     struct OstHalo *halo; /* owned nodes, and leaders of other ranks */

@@ -280,7 +280,7 @@ static void clear_columns(const OstSystem *system, Columns *columns)
 }
 
 static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system, const Columns *columns,
-                          const OstMaterialField *field, OstCoupling *coupling)
+                          const OstMaterialField *field, const double *u, OstCoupling *coupling)
 {
     OstContext *ctx = space->ctx;
     PressureTets tets = {0};
@@ -304,6 +304,10 @@ static OstStatus assemble(const OstPressureSpace *space, const OstSystem *system
         OST_TRY_DONE(OST_NEW(ctx, &coupling->estimate, coupling->mass_start[space->owned]));
     find_scales(space, field, coupling);
     add_tets(space, columns, field, NULL, 1, coupling);
+    if (u) {
+        memset(coupling->value, 0, 3 * (size_t)coupling->row_start[coupling->columns] * sizeof *coupling->value);
+        add_tets(space, columns, field, u, 0, coupling);
+    }
     if (!system->supports->links)
         project(system, coupling);
     find_diagonal(coupling);
@@ -313,8 +317,8 @@ done:
     return status;
 }
 
-OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                                OstCoupling **coupling)
+static OstStatus create(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                        const double *u, OstCoupling **coupling)
 {
     OstContext *ctx = space->ctx;
     Columns columns = {0};
@@ -322,7 +326,7 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
     ost_ledger_enter(ctx, OST_EFFECT_MIXED);
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, coupling, 1));
     OST_THEN(find_columns(system, &columns));
-    OST_THEN(ost_agree(ctx, assemble(space, system, &columns, field, *coupling)));
+    OST_THEN(ost_agree(ctx, assemble(space, system, &columns, field, u, *coupling)));
     if (system->supports->links)
         OST_THEN(ost_coupling_link(space, system, &columns.rows, *coupling));
     clear_columns(system, &columns);
@@ -332,17 +336,35 @@ OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *
     return status;
 }
 
-void ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                              const double *u, OstCoupling *coupling)
+OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                                OstCoupling **coupling)
+{
+    return create(space, system, field, NULL, coupling);
+}
+
+/* Made anew, with the same columns. */
+static OstStatus refill_linked(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
+                               const double *u, OstCoupling *coupling)
+{
+    OstCoupling *fresh;
+    OST_TRY(create(space, system, field, u, &fresh));
+    memcpy(coupling->value, fresh->value, 3 * (size_t)coupling->row_start[coupling->columns] * sizeof *coupling->value);
+    ost_coupling_destroy(&fresh);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system,
+                                   const OstMaterialField *field, const double *u, OstCoupling *coupling)
 {
     const Columns columns = {.count = system->matrix->columns, .of_node = system->row_of_node};
-    if (system->supports->links) /* linear theory alone, of which the coupling is */
-        return;
+    if (system->supports->links)
+        return refill_linked(space, system, field, u, coupling);
     ost_ledger_enter(space->ctx, OST_EFFECT_MIXED);
     memset(coupling->value, 0, 3 * (size_t)coupling->row_start[coupling->columns] * sizeof *coupling->value);
     add_tets(space, &columns, field, u, 0, coupling);
     project(system, coupling);
     ost_ledger_leave(space->ctx);
+    return OST_SUCCESS;
 }
 
 /* The second equation of a batch by linear theory, of each vertex's share. */

@@ -29,10 +29,10 @@ void ost_pressure_space_destroy(OstPressureSpace **space);
 OstStatus ost_pressure_coupling(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
                                 OstCoupling **coupling);
 
-/* Local. Brings a coupling made by the above to a displacement u (3 × node_count, large rotations: the derivative of
- * the volume below), or back to that of linear theory (NULL). */
-void ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system, const OstMaterialField *field,
-                              const double *u, OstCoupling *coupling);
+/* Local; collective where nodes follow others. Brings a coupling made by the above to a displacement u (3 × node_count,
+ * large rotations: the derivative of the volume below), or back to that of linear theory (NULL). */
+OstStatus ost_pressure_coupling_at(const OstPressureSpace *space, const OstSystem *system,
+                                   const OstMaterialField *field, const double *u, OstCoupling *coupling);
 
 /* Local. For each owned pressure the integral of its share of m'(strain of u - share × e0) - looseness p, tet by tet
  * without the coupling, with p the field's pressure; the strain is U - I where rotations are large. u is 3 ×

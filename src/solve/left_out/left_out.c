@@ -38,7 +38,7 @@ static OstStatus allocate(const OstProblem *problem, Work *work)
     OstContext *ctx = problem->ctx;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
     const size_t unknowns =
-        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? (size_t)problem->pressures->count : 0);
+        3 * (size_t)problem->system->matrix->rows + (problem->pressures ? ost_problem_pressure_room(problem) : 0);
     OstStatus status = OST_NEW(ctx, &work->force, owned);
     OST_THEN(OST_NEW(ctx, &work->load, owned));
     OST_THEN(OST_NEW(ctx, &work->even, owned));
@@ -137,8 +137,8 @@ static OstStatus subtract_half(const OstProblem *problem, const OstResult *resul
 {
     const OstSystem *system = problem->system;
     const double share = sign * ost_problem_eigen_share(problem, result->t), *u = result->displacement;
-    OST_TRY(
-        ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT, share, u, work->force, NULL));
+    OST_TRY(ost_agree(problem->ctx, ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT,
+                                                          share, u, work->force, NULL)));
     if (problem->follower) {
         OstProblem turned = *problem;
         ost_problem_take_formulation(&turned, OST_FORMULATION_CONSISTENT);
@@ -148,14 +148,9 @@ static OstStatus subtract_half(const OstProblem *problem, const OstResult *resul
     }
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
         work->even[i] += 0.5 * work->force[i];
-    for (OstLocal row = 0; row < system->matrix->rows; row++) {
-        const OstLocal node = system->node_of_row[row];
-        double projector[9], kept[3];
-        ost_supports_get(problem->supports, node, projector, NULL);
-        ost_apply3(projector, work->force + 3 * (size_t)node, kept);
-        for (size_t i = 0; i < 3; i++)
-            work->residual[3 * (size_t)row + i] -= 0.5 * kept[i];
-    }
+    OST_TRY(ost_system_take_rows(system, work->force, work->taken));
+    for (size_t i = 0; i < 3 * (size_t)system->matrix->rows; i++)
+        work->residual[i] -= 0.5 * work->taken[i];
     if (!problem->pressures)
         return OST_SUCCESS;
     const size_t rows = 3 * (size_t)system->matrix->rows;
