@@ -62,6 +62,17 @@ static OstStatus read_displacement_time(const OstYaml *yaml, const OstYamlNode *
     return ost_read_time(yaml, node, c, &constraint->table);
 }
 
+static OstStatus read_turn(const OstYaml *yaml, const OstYamlNode *node, int *constrained, double *turn)
+{
+    OST_TRY(read_components(yaml, node, constrained, turn));
+    for (int i = 0; i < 3; i++)
+        if (fabs(turn[i]) > 6.3)
+            ost_warn(yaml->ctx,
+                     "%s:%d: a rotation of %.6g is in radians, and more than a whole turn; 90 degrees are 1.5708",
+                     yaml->path, ost_yaml_line(node), turn[i]);
+    return OST_SUCCESS;
+}
+
 /* A point, or {at, displacement, rotation}. */
 static OstStatus read_rigid(const OstYaml *yaml, const OstYamlNode *node, OstConstraint *constraint)
 {
@@ -78,7 +89,7 @@ static OstStatus read_rigid(const OstYaml *yaml, const OstYamlNode *node, OstCon
     if (keys[DISPLACEMENT].value)
         OST_TRY(read_components(yaml, keys[DISPLACEMENT].value, constraint->constrained, constraint->displacement));
     return keys[ROTATION].value
-               ? read_components(yaml, keys[ROTATION].value, constraint->turn_constrained, constraint->rotation)
+               ? read_turn(yaml, keys[ROTATION].value, constraint->turn_constrained, constraint->rotation)
                : OST_SUCCESS;
 }
 
@@ -274,7 +285,7 @@ static OstStatus read_distributing(const OstYaml *yaml, const OstYamlNode *node,
     if (keys[DISPLACEMENT].value)
         OST_TRY(read_components(yaml, keys[DISPLACEMENT].value, load->moved, load->motion));
     if (keys[ROTATION].value)
-        OST_TRY(read_components(yaml, keys[ROTATION].value, load->moved + 3, load->motion + 3));
+        OST_TRY(read_turn(yaml, keys[ROTATION].value, load->moved + 3, load->motion + 3));
     for (int k = 0; k < 6; k++)
         if (load->moved[k])
             return OST_SUCCESS;

@@ -381,6 +381,27 @@ static OstStatus read_directions(const OstYaml *yaml, const OstYamlNode *axes, c
     return OST_SUCCESS;
 }
 
+/* Near 1/2 the family's one ratio keeps sqrt(E1) e11 + sqrt(E2) e22 + sqrt(E3) e33, which is the volume of equal moduli
+ * alone. */
+static void warn_of_volume(const OstYaml *yaml, const OstYamlNode *node, const Stated *stated, const char *what)
+{
+    const double *e = stated->youngs;
+    double change = 0.0;
+    int axis = 0;
+    for (int i = 0; i < 3; i++) {
+        const double here = 1.0 - stated->nu * (sqrt(e[i] / e[(i + 1) % 3]) + sqrt(e[i] / e[(i + 2) % 3]));
+        if (fabs(here) > fabs(change)) {
+            change = here;
+            axis = i;
+        }
+    }
+    if (stated->nu >= 0.49 && fabs(change) > 0.1)
+        ost_warn(yaml->ctx,
+                 "%s:%d: %s: one ratio near 1/2 keeps the volume of equal moduli alone: stretched along e%d, this "
+                 "material's changes by %.2g times the strain; ratios that keep it are in docs/case.md, Volume",
+                 yaml->path, ost_yaml_line(node), what, axis + 1, change);
+}
+
 static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, OstCase *c, OstCaseMaterial *material)
 {
     enum { REGION, YOUNGS, POISSONS, SHEAR, DENSITY, AXES, FIBRE, EIGENSTRAIN, STRENGTHS };
@@ -419,6 +440,8 @@ static OstStatus read_material(const OstYaml *yaml, const OstYamlNode *node, Ost
     OST_TRY(
         ost_yaml_located(yaml, keys[POISSONS].value,
                          ost_material_create(yaml->ctx, material->region, &constants, density, &material->material)));
+    if (stated.poissons_form == POISSONS_NUMBER)
+        warn_of_volume(yaml, keys[POISSONS].value, &stated, what);
     if (keys[EIGENSTRAIN].value)
         OST_TRY(read_eigenstrain(yaml, keys[EIGENSTRAIN].value, c, material));
     if (keys[STRENGTHS].value)

@@ -93,7 +93,8 @@ static void print(const Report *report)
     print_numbers("nu21 nu32 nu13", 3, report->reverse_ratio);
     print_numbers("G12 G23 G31", 3, constants->shear_modulus);
     if (report->material.incompressible)
-        printf("\nstiffness C: none, as nothing compresses the material (nu = 1/2)\n");
+        printf("\nstiffness C: none, as one strain is kept (nu = 1/2): %s\n",
+               report->material.isotropic ? "the volume" : "sqrt(E1) e11 + sqrt(E2) e22 + sqrt(E3) e33");
     else
         print_matrix("\nstiffness C", report->material.stiffness);
     print_matrix("\ncompliance S = C^-1", report->material.compliance);

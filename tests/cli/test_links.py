@@ -58,6 +58,8 @@ def a_rigid_face_bends_a_bar():
     near(turned["moment"], 5, 1e-8, "the moment for a rotation")
     near(turned["tip"], 0.4, 1e-8, "the tip of a turned bar")
     check(abs(turned["force"]) < 1e-6, f"a face that may move has the force {turned['force']}")
+    finished, _, _ = solve(bar("{at: [4, 0.5, 0.5], rotation: [0, 0, 90]}"))
+    check("a rotation of 90 is in radians" in finished.errors, finished.errors)
     held = watched(bar("{at: [4, 0.5, 0.5], displacement: [0, 0, 0], rotation: [0, 0, 0.2]}"))
     clamped = watched(bar("{at: [4, 0.5, 0.5], displacement: [free, 0, free], rotation: [free, free, 0.2]}"))
     near(clamped["moment"], held["moment"], 1e-5, "the moment of a face held in part") # the mesh is not symmetric

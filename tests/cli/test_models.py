@@ -149,6 +149,9 @@ top = read_json(folder, "some.json")["boundaries"][0]
 check((top["name"], round(top["area"], 6)) == ("rbe2-17", 1), top)
 said = warnings("some.inp", DECK.replace("*Kinematic\n", "*Kinematic\n1, 2\n6, 6\n"))
 check(told(said)[3][1].endswith("rigid: [0.5, 0.5, 3]} # holds more: the model couples 126 alone"), said)
+for words in ("*Kinematic coupling, ref node=Handle\n\"Top_CNS_\", 1, 6\n", "*Rigid body, nset=\"Top nodes\", ref node=Handle\n"):
+    said = warnings("other.inp", DECK.replace("*Coupling, constraint name=Cap, ref node=Handle, surface=\"Top_CNS_\"\n*Kinematic\n", words))
+    check(told(said)[3][1].endswith("rigid: [0.5, 0.5, 3]}") and "boundary: ..." not in said, said)
 check("holds more" not in warnings("all.inp", DECK.replace("*Kinematic\n", "*Kinematic\n1, 3\n")), "all directions")
 
 # A surface of shells has both of their sides where none is named, one of solids those of their faces that no other has.

@@ -346,7 +346,9 @@ static OstStatus begin_block(OstInp *inp, const OstInpKeyword *keyword)
         inp->block = OST_INP_SYSTEM;
     if (strcmp(name, "TIE") == 0)
         return ost_inp_begin_tie(inp, keyword);
-    if (strcmp(name, "COUPLING") == 0)
+    if (strcmp(name, "KINEMATICCOUPLING") == 0)
+        inp->block = OST_INP_KINEMATIC_NODES;
+    if (strcmp(name, "COUPLING") == 0 || strcmp(name, "KINEMATICCOUPLING") == 0 || strcmp(name, "RIGIDBODY") == 0)
         return ost_inp_coupling(inp, keyword);
     if (strcmp(name, "ORIENTATION") == 0)
         return ost_inp_begin_orientation(inp, keyword);
@@ -399,6 +401,7 @@ static OstStatus read_data_line(OstInp *inp)
     case OST_INP_TIE:
         return ost_inp_tie_line(inp);
     case OST_INP_KINEMATIC:
+    case OST_INP_KINEMATIC_NODES:
         ost_inp_kinematic_line(inp);
         return OST_SUCCESS;
     case OST_INP_ORIENTATION:

@@ -19,6 +19,7 @@ typedef enum {
     OST_INP_SYSTEM,
     OST_INP_TIE,
     OST_INP_KINEMATIC,
+    OST_INP_KINEMATIC_NODES,
     OST_INP_ORIENTATION
 } OstInpBlock;
 

@@ -81,8 +81,12 @@ OstStatus ost_inp_coupling(OstInp *inp, const OstInpKeyword *keyword)
 {
     OstInpJoin *join = NULL;
     OST_TRY(add_join(inp, OST_INP_RIGID, &join));
-    ost_inp_set_name(keyword, "SURFACE", join->on);
+    if (!ost_inp_set_name(keyword, "SURFACE", join->on) && !ost_inp_set_name(keyword, "NSET", join->on) &&
+        !ost_inp_set_name(keyword, "TIENSET", join->on))
+        ost_inp_set_name(keyword, "PINNSET", join->on);
     ost_inp_set_name(keyword, "REFNODE", join->to);
+    if (strcmp(keyword->name, "RIGIDBODY") == 0 && !join->on[0]) /* one of elements is left to words */
+        inp->join_count--;
     return ost_inp_pass(inp, keyword);
 }
 
@@ -93,13 +97,15 @@ void ost_inp_distribute(OstInp *inp)
         inp->join[inp->join_count - 1].kind = OST_INP_DISTRIBUTED;
 }
 
-/* The first of some directions, and the last. */
+/* The first of some directions, and the last; before them, in *KINEMATIC COUPLING, which nodes. */
 void ost_inp_kinematic_line(OstInp *inp)
 {
     char first[OST_INP_WORD], last[OST_INP_WORD];
+    OstInpJoin *join = inp->join_count > 0 ? &inp->join[inp->join_count - 1] : NULL;
+    if (join && inp->block == OST_INP_KINEMATIC_NODES)
+        ost_inp_word(inp->lines, join->on);
     ost_inp_word(inp->lines, first);
     ost_inp_word(inp->lines, last);
-    OstInpJoin *join = inp->join_count > 0 ? &inp->join[inp->join_count - 1] : NULL;
     const int from = atoi(first), to = last[0] ? atoi(last) : from;
     for (int d = from > 0 ? from : 1; join && d <= to && d <= 6; d++)
         if (!strchr(join->directions, '0' + d))
@@ -221,7 +227,7 @@ static int axes_of(const OstInpOrientation *turned, double e[3][3])
         if (!(length > 0.0))
             return 0;
         for (int d = 0; d < 3; d++)
-            e[k][d] /= length;
+            e[k][d] = fabs(e[k][d]) < 1e-12 * length ? 0.0 : e[k][d] / length;
     }
     for (int d = 0; d < 3 && turned->about > 0; d++) {
         const double first = e[i][d], second = e[j][d];
