@@ -111,7 +111,7 @@ for page in orthostat orthostat-solve; do
 done
 
 # shellcheck disable=SC1091
-. usr/share/bash-completion/completions/orthostat
+. "$PWD/usr/share/bash-completion/completions/orthostat"
 completed() { # WORD...: what may stand for the last of them
     COMP_WORDS=("$@")
     COMP_CWORD=$(($# - 1))
