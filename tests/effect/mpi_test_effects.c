@@ -43,6 +43,7 @@
     "displacement: [0, 0, 0]}]\n"
 #define FREE "constraints: free_body\n"
 #define PULLED "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}]\n"
+#define PUSHED "loads: [{on: {boundary: xmax}, traction: [-1, 0, 0]}]\n"
 #define TORN "loads: [{on: {boundary: xmax}, traction: [1, 0, 0]}, {on: {boundary: xmin}, traction: [-1, 0, 0]}]\n"
 #define POKED "loads: [{on: {box: {min: [2, 1, 1], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
 #define SPREAD "loads: [{on: {box: {min: [2, 0, 0], max: [2, 1, 1]}}, total_force: [0, 0, 1]}]\n"
@@ -82,7 +83,7 @@ static const struct {
                                        BLOCK RUBBER HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_LARGE_ROTATION) = {BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: on\nsolver: {method: metric}\n",
                                       BLOCK SOFT HELD PULLED NO_FIELDS "large_rotation: off\n"},
-    ROW(OST_EFFECT_BUCKLING) = {BLOCK SOFT HELD PULLED "buckling: {modes: 2}\n" NO_FIELDS,
+    ROW(OST_EFFECT_BUCKLING) = {BLOCK SOFT HELD PUSHED "buckling: {modes: 2}\n" NO_FIELDS,
                                 BLOCK SOFT HELD PULLED NO_FIELDS},
     ROW(OST_EFFECT_LINEAR_SPACE) = {QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: metric}\n",
                                     QUADRATIC SOFT HELD PULLED NO_FIELDS "solver: {method: direct}\n"},
