@@ -174,10 +174,12 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
         off(state, f->nearly_incompressible > 0 ? "linear tets do not use it" : "no material is nearly incompressible");
 }
 
-/* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops. */
+/* Newton's vectors, and the scatter map of the stiffness, which a linear solve drops; where nodes follow others, the
+ * stiffness of all nodes too. */
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
-    const double bytes = 264.0 * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
+    const double of_all = !has_links(f) ? 0.0 : f->quadratic ? 2100.0 : 1150.0;
+    const double bytes = (264.0 + of_all) * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->free_body)
