@@ -106,7 +106,7 @@ static OstStatus join(OstAnalysis *analysis, Member *member)
 static const double small_square = 1e-10, small_left = 1e-8;
 
 /* Parts are solved to this share of the error that would do alone, as they add up. */
-static const double of_part = 0.3;
+static const double of_part = 0.2;
 
 /* Could its answer be stopped as those are whose sum it is? */
 static int may_be_sum(const Member *member)
