@@ -67,7 +67,7 @@ case = {
                    "poissons_ratio": {"nu12": 0.4, "nu23": 0.3, "nu31": 0.02},
                    "shear_modulus": {"G12": 0.6, "G23": 0.04, "G31": 0.6}, "axes": {"cells": "mesh"}}],
     "constraints": [{"on": {"boundary": "foot"}, "displacement": [0, 0, 0]}],
-    "loads": [{"on": {"boundary": "top"}, "total_force": [0, 0, -0.002]}],
+    "loads": [{"on": {"boundary": "top"}, "total_force": [0, 0, -0.001]}],
 }
 
 
@@ -117,7 +117,7 @@ if rank0:
     print("twist by angle:", ", ".join(f"{degrees}: {turn:.3g}" for degrees, turn in zip(angles, twists)))
 
 # %% A pose: pushed aside as well, with large rotations.
-push = [{"on": {"boundary": "top"}, "total_force": [0.001, 0, -0.002]}]
+push = [{"on": {"boundary": "top"}, "total_force": [0.001, 0, -0.001]}]
 posed = scene_of(20, loads=push, large_rotation="on")
 pose = posed.solve()
 if rank0:

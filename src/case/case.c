@@ -410,12 +410,6 @@ static OstStatus read_file(OstContext *ctx, const char *path, char **bytes, size
 {
     if (strcmp(path, "-") == 0)
         return read_stream(ctx, standard_input, stdin, bytes, size);
-    for (int f = 0; f < ost_mesh_format_count; f++)
-        if (ost_has_ending(path, ost_mesh_formats[f].ending))
-            return OST_RAISE(ctx, OST_INVALID_INPUT,
-                             "%s: a mesh; expected a case, a YAML file that names it, mesh: {file: %s} (orthostat mesh "
-                             "shows what a mesh holds)",
-                             path, path);
     FILE *file = fopen(path, "rb");
     if (!file)
         return OST_RAISE(ctx, OST_FILE_FAILED, "%s: cannot be opened: %s", path, strerror(errno));
@@ -489,6 +483,10 @@ static OstStatus read_and_make(OstContext *ctx, const char *path, OstCaseText *t
     text->bytes = bytes;
     const OstStatus status = ost_case_make(ctx, path, text, c);
     OST_FREE(bytes);
+    for (int f = 0; f < ost_mesh_format_count && status == OST_INVALID_INPUT; f++)
+        if (ost_has_ending(path, ost_mesh_formats[f].ending))
+            return OST_RAISE(ctx, status, "%s: a mesh; expected a case, a YAML file that names it, mesh: {file: %s}",
+                             path, path);
     return status;
 }
 

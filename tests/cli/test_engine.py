@@ -7,8 +7,8 @@ from program import SOURCE, check, new_folder, run, solve, write
 
 COUNTER = os.environ["ORTHOSTAT_COUNTER"]
 
-# Fields without the error, whose estimate has cycles of its own.
-TUBE = open(os.path.join(SOURCE, "cases", "tube", "radial.yaml")).read().replace("output: {", "output: {fields: [displacement], ")
+# Fields without the error, whose estimate has cycles of its own; linear, as the look for buckling has them too.
+TUBE = open(os.path.join(SOURCE, "cases", "tube", "radial.yaml")).read().replace("output: {", "large_rotation: off\noutput: {fields: [displacement], ")
 BENT = """
 title: a cantilever of quadratic tets
 mesh: {block: {size: [4, 1, 1], divisions: [16, 4, 4]}}
@@ -17,6 +17,7 @@ materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3}]
 constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
 loads: [{on: {boundary: xmax}, total_force: [0, 0, 1]}]
 output: {fields: [displacement]}
+large_rotation: off
 """
 
 

@@ -256,6 +256,13 @@ static int is_ruled_out(const Search *search, double least, int iterations)
     return most < least && pow(most / least, iterations) < hidden;
 }
 
+/* Is there no sign of such a motion after an iteration, which makes least / value times more of it, so that no residual
+ * has to tell? */
+static int is_far_off(const Search *search, double least)
+{
+    return fabs(search->value[0]) < hidden * least;
+}
+
 static int is_done(const Search *search, const OstModesAim *aim, int iterations)
 {
     if (aim->least > 0.0 && is_ruled_out(search, aim->least, iterations))
@@ -280,6 +287,11 @@ static OstStatus iterate(Search *search, const OstModesAim *aim, OstModes *modes
         OST_TRY(multiply(search, search->block, search->block));
         search->columns = (modes->iterations == 0 ? 2 : 3) * search->block;
         OST_TRY(improve(search));
+        if (is_far_off(search, aim->least)) {
+            modes->iterations++;
+            modes->converged = 1;
+            return OST_SUCCESS;
+        }
     }
 }
 
