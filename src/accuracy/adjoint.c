@@ -441,9 +441,12 @@ static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *
 {
     const OstProblem *problem = estimate->problem;
     Search search = {0};
+    float *left_of_u = NULL;
     *adjoint = NULL;
     OstStatus status = ost_search_move(estimate, wanted->u);
+    OST_THEN(ost_search_left_of(estimate, wanted->t, wanted->u, &left_of_u));
     OST_THEN(ost_search_open(estimate, solver, &search));
+    search.left_of_u = left_of_u;
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
         **adjoint = (OstAdjoint){.ctx = problem->ctx, .nodes = 3 * (size_t)problem->mesh->owned_nodes};
@@ -456,6 +459,7 @@ static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *
     if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
     ost_steps_close(&search.steps);
+    OST_FREE(left_of_u);
     return status;
 }
 
@@ -465,18 +469,24 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
     return create(estimate, solver, &(Wanted){interest, t, u, share, NULL}, adjoint);
 }
 
+/* Where stiff directions cross quadratic tets, the next order misses a part of both errors, whose product has any sign:
+ * 0.3 to 0.45 of the sum without signs, of a reaction whose parts cancel. */
+static const double missed = 0.2;
+
 OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u,
                             const double *tet_error, double *error)
 {
     Search search = {0};
-    double of_orders = 1.0;
+    double of_orders = 1.0, unsigned_sum = 0.0;
     OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, NULL, &search));
     OST_THEN(ost_search_residual(&search, t, u));
     OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
     if (adjoint->orders && tet_error)
-        OST_THEN(ost_orders_of_product(&search, u, tet_error, adjoint->orders, &of_orders));
+        OST_THEN(ost_orders_of_product(&search, u, tet_error, adjoint->orders, &of_orders, &unsigned_sum));
     *error *= status == OST_SUCCESS ? -of_orders * adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
+    if (estimate->misses)
+        *error = copysign(hypot(*error, missed * unsigned_sum), *error);
     ost_steps_close(&search.steps);
     if (adjoint->pressure) {
         double of_pressure = 0.0;

@@ -25,6 +25,7 @@ typedef struct OstEstimate {
     float *factor;                    /* of the functions' blocks, once they are known */
     int has_factor;                   /* of linear theory */
     int knows_orders;                 /* do the orders of u tell what orders above the next add to e? */
+    int misses;                       /* do stiff directions cross quadratic tets, so that orders above are missed? */
     OstEarlier *earlier;              /* what was found for other loads; or NULL */
     Enough enough, enough_of_adjoint; /* a quantity's error may be small beside the product of two, as parts cancel */
 } OstEstimate;
@@ -32,10 +33,11 @@ typedef struct OstEstimate {
 typedef struct Search {
     OstSteps steps;
     OstEstimate *estimate;
-    double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
-    double higher;  /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
-    double energy;  /* of this rank's tets, under u; NAN: not known */
-    int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
+    double longer;    /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double higher;    /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
+    double energy;    /* of this rank's tets, under u; NAN: not known */
+    int of_adjoint;   /* is the error that of an adjoint problem, unlike those of loads? */
+    float *left_of_u; /* of an adjoint problem: what u leaves on the functions, in its steps' units; or NULL */
 } Search;
 
 /* Collective. Takes the stiffness to u. */
@@ -54,6 +56,9 @@ OstStatus ost_search_take(Search *search, const double *left);
 /* Collective. Steps until what is to come of |e|² is small; `start` is that of the part of e that was found
  * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
+
+/* Collective, before the search of an adjoint problem is opened: what u leaves on the functions, for left_of_u. */
+OstStatus ost_search_left_of(OstEstimate *estimate, double t, const double *u, float **left);
 
 /* Local. A square in the case's units. */
 double ost_search_true_square(const Search *search, double square);
@@ -86,9 +91,9 @@ typedef struct OstOrders {
 /* Collective. How many times as large the product of the errors of u and of an adjoint problem is with the orders that
  * are higher still: where both have a share of their own, r, that of the product is the root of both, so that the
  * product of an error with itself is its square. tet_error: each tet's share of |e|² of u, with those orders.
- * Overwrites as above. */
+ * *unsigned_sum: of the third order's products of all tets, as if all had one sign. Overwrites as above. */
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
-                                double *factor);
+                                double *factor, double *unsigned_sum);
 
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);
