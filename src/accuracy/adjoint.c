@@ -441,12 +441,9 @@ static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *
 {
     const OstProblem *problem = estimate->problem;
     Search search = {0};
-    float *left_of_u = NULL;
     *adjoint = NULL;
     OstStatus status = ost_search_move(estimate, wanted->u);
-    OST_THEN(ost_search_left_of(estimate, wanted->t, wanted->u, &left_of_u));
     OST_THEN(ost_search_open(estimate, solver, &search));
-    search.left_of_u = left_of_u;
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
         **adjoint = (OstAdjoint){.ctx = problem->ctx, .nodes = 3 * (size_t)problem->mesh->owned_nodes};
@@ -459,7 +456,6 @@ static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *
     if (status != OST_SUCCESS || search.steps.failed)
         ost_adjoint_destroy(adjoint);
     ost_steps_close(&search.steps);
-    OST_FREE(left_of_u);
     return status;
 }
 

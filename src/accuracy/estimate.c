@@ -25,11 +25,6 @@ static const double largest_ratio = 0.75;
  */
 static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to_come = 0.05;
 
-/* The work of e on what u leaves is taken to grow as |e|² does. Where parts of the work cancel it does not, and few
- * steps find any number: steps go on while two of them change the quotient by more than this share of it, and by more
- * than the second share of what the work would be without signs. */
-static const double steady = 0.3, of_product = 1e-3;
-
 /* What two steps may add, where errors of other loads gave a start, to be the last. */
 static const double little_new = 0.03;
 
@@ -171,42 +166,12 @@ static int is_enough(const Enough *enough, const Progress *now)
            by_gains <= enough->rest * (now->sum + by_gains);
 }
 
-OstStatus ost_search_left_of(OstEstimate *estimate, double t, const double *u, float **left)
-{
-    Search of_u = {0};
-    *left = NULL;
-    OstStatus status = ost_search_open(estimate, NULL, &of_u);
-    OST_THEN(ost_search_residual(&of_u, t, u));
-    const size_t numbers = OST_PER_FUNCTION * of_u.steps.functions;
-    OST_THEN(ost_agree(estimate->problem->ctx, OST_NEW(estimate->problem->ctx, left, numbers)));
-    if (status == OST_SUCCESS)
-        memcpy(*left, of_u.steps.r.functions, numbers * sizeof **left);
-    ost_steps_close(&of_u.steps);
-    return status;
-}
-
-/* Does e, whose |e|² is `sum`, tell what its work on what u leaves comes to? *quotient is that work over |e|², and on
- * entry what it was before. */
-static OstStatus is_work_steady(const Search *search, double sum, double *quotient, int *yes)
-{
-    const OstSteps *steps = &search->steps;
-    const double before = *quotient;
-    double sums[2] = {ost_functions_dot(steps->functions, search->left_of_u, steps->e.functions),
-                      ost_blocks_square(steps->functions, steps->factor, search->left_of_u)};
-    OST_TRY(ost_sum(search->estimate->problem->ctx, 2, sums));
-    *quotient = sum > 0.0 ? sums[0] / sum : 0.0;
-    const double change = fabs(*quotient - before);
-    *yes = change <= steady * fabs(*quotient) || change * sum <= of_product * sqrt(sums[1] * sum);
-    return OST_SUCCESS;
-}
-
 OstStatus ost_search_iterate(Search *search, double start, double *square)
 {
     const OstEstimate *estimate = search->estimate;
     const Enough *enough = search->of_adjoint ? &estimate->enough_of_adjoint : &estimate->enough;
     OstSteps *steps = &search->steps;
     Progress now = {.start = start, .sum = start};
-    double quotient = 0.0;
     ost_steps_start(steps);
     while (now.steps < most_steps && !steps->failed) {
         OST_TRY(ost_steps_next(steps));
@@ -221,10 +186,7 @@ OstStatus ost_search_iterate(Search *search, double start, double *square)
             now.to_come = fmax(now.to_come, gains_to_come(now.pair, now.last));
         ost_log(estimate->problem->ctx, OST_LOG_VERBOSE, "error estimate: step %d: %.6e, with %.6e to come", now.steps,
                 sqrt(ost_search_true_square(search, now.sum)), sqrt(ost_search_true_square(search, now.to_come)));
-        int steady_work = 1;
-        if (search->left_of_u && now.steps % 2 == 0)
-            OST_TRY(is_work_steady(search, now.sum, &quotient, &steady_work));
-        if (!(now.gain > 0.0) || (steady_work && is_enough(enough, &now)))
+        if (!(now.gain > 0.0) || is_enough(enough, &now))
             break;
     }
     *square = now.sum + now.to_come;

@@ -33,11 +33,10 @@ typedef struct OstEstimate {
 typedef struct Search {
     OstSteps steps;
     OstEstimate *estimate;
-    double longer;    /* by what e is short of in its work on the residual, as extrapolated: a factor */
-    double higher;    /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
-    double energy;    /* of this rank's tets, under u; NAN: not known */
-    int of_adjoint;   /* is the error that of an adjoint problem, unlike those of loads? */
-    float *left_of_u; /* of an adjoint problem: what u leaves on the functions, in its steps' units; or NULL */
+    double longer;  /* by what e is short of in its work on the residual, as extrapolated: a factor */
+    double higher;  /* by what orders above the functions' add to |e|²: a factor; 1 where that is not known */
+    double energy;  /* of this rank's tets, under u; NAN: not known */
+    int of_adjoint; /* is the error that of an adjoint problem, unlike those of loads? */
 } Search;
 
 /* Collective. Takes the stiffness to u. */
@@ -56,9 +55,6 @@ OstStatus ost_search_take(Search *search, const double *left);
 /* Collective. Steps until what is to come of |e|² is small; `start` is that of the part of e that was found
  * before. Squares are in the steps' units. */
 OstStatus ost_search_iterate(Search *search, double start, double *square);
-
-/* Collective, before the search of an adjoint problem is opened: what u leaves on the functions, for left_of_u. */
-OstStatus ost_search_left_of(OstEstimate *estimate, double t, const double *u, float **left);
 
 /* Local. A square in the case's units. */
 double ost_search_true_square(const Search *search, double square);
