@@ -208,6 +208,7 @@ struct OstAdjoint {
     double *pressure;   /* 4 × tet_count: of a mixed form, the error of z's pressure; or NULL */
     OstOrders *orders;  /* owned_tets; NULL where orders above the next are not known */
     double *z;          /* 3 × owned_nodes: what the solve adds to the given motion */
+    int is_reaction;    /* not a displacement, or a mean */
     double *z_pressure; /* the owned pressures of z, of a mixed form; or NULL */
 };
 
@@ -447,7 +448,9 @@ static OstStatus create(OstEstimate *estimate, OstSolver *solver, const Wanted *
     OST_THEN(ost_search_open(estimate, solver, &search));
     OST_THEN(ost_agree(problem->ctx, OST_NEW(problem->ctx, adjoint, 1)));
     if (status == OST_SUCCESS) {
-        **adjoint = (OstAdjoint){.ctx = problem->ctx, .nodes = 3 * (size_t)problem->mesh->owned_nodes};
+        **adjoint = (OstAdjoint){.ctx = problem->ctx,
+                                 .nodes = 3 * (size_t)problem->mesh->owned_nodes,
+                                 .is_reaction = wanted->interest->moved != NULL};
         status = OST_NEW(problem->ctx, &(*adjoint)->e.rows, search.steps.rows);
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->e.functions, OST_PER_FUNCTION * search.steps.functions));
         OST_THEN(OST_NEW(problem->ctx, &(*adjoint)->z, (*adjoint)->nodes));
@@ -466,18 +469,24 @@ OstStatus ost_adjoint_create(OstEstimate *estimate, OstSolver *solver, double t,
     return create(estimate, solver, &(Wanted){interest, t, u, share, NULL}, adjoint);
 }
 
+/* Where stiff directions cross quadratic tets, the next order misses a part of both errors. Of the sum of their
+ * products without signs, 0.2 to 0.55 was missing in reactions of four blocks and a bolt in a plate, with any sign. */
+static const double missed = 0.2;
+
 OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, double t, const double *u,
                             const double *tet_error, double *error)
 {
     Search search = {0};
-    double of_orders = 1.0;
+    double of_orders = 1.0, unsigned_sum = 0.0;
     OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, NULL, &search));
     OST_THEN(ost_search_residual(&search, t, u));
     OST_THEN(ost_steps_dot(&search.steps, &search.steps.r, &adjoint->e, error));
     if (adjoint->orders && tet_error)
-        OST_THEN(ost_orders_of_product(&search, u, tet_error, adjoint->orders, &of_orders));
+        OST_THEN(ost_orders_of_product(&search, u, tet_error, adjoint->orders, &of_orders, &unsigned_sum));
     *error *= status == OST_SUCCESS ? -of_orders * adjoint->size * search.steps.size * estimate->stiffness.unit : 0.0;
+    if (estimate->misses && adjoint->is_reaction)
+        *error = copysign(hypot(*error, missed * unsigned_sum), *error);
     ost_steps_close(&search.steps);
     if (adjoint->pressure) {
         double of_pressure = 0.0;
@@ -487,6 +496,11 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
         *error += of_pressure;
     }
     return status;
+}
+
+int ost_estimate_misses(const OstEstimate *estimate)
+{
+    return estimate->misses;
 }
 
 const double *ost_adjoint_displacement(const OstAdjoint *adjoint)

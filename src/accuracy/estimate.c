@@ -61,6 +61,8 @@ static OstStatus create(OstEstimate *estimate)
         OST_TRY(ost_stiff_directions_cross(problem, &is_locked));
     estimate->enough = is_quadratic ? enough_of_quadratic : is_locked ? enough_of_locked : enough_of_linear;
     estimate->knows_orders = is_quadratic && !is_locked;
+    if (estimate->knows_orders)
+        OST_TRY(ost_stiff_directions_cross(problem, &estimate->misses));
     estimate->enough_of_adjoint = is_quadratic ? estimate->enough : enough_of_locked;
     estimate->enough_of_adjoint.by_left = 0;
     OstStatus status = ost_light_tets_create(problem, &estimate->complement, stiffness->unit, &stiffness->light);

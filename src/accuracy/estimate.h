@@ -80,6 +80,10 @@ void ost_estimate_add(const OstEstimate *estimate, const double *error, const Os
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double *error, double *share);
 
+/* Local. Do stiff directions cross quadratic tets, so that what the next order misses is in the errors of reactions, of
+ * unknown sign? */
+int ost_estimate_misses(const OstEstimate *estimate);
+
 /* The adjoint problem of a reaction, or of a mixed form's mean stress by linear theory, solved once for all loads on
  * the same supports; where rotations are large, that of the stiffness at u. */
 typedef struct OstAdjoint OstAdjoint;

@@ -74,7 +74,7 @@ static double share_of_all(double of_all, double of_second)
 }
 
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
-                                double *factor)
+                                double *factor, double *unsigned_sum)
 {
     OstContext *ctx = search->estimate->problem->ctx;
     const OstLocal tets = search->estimate->problem->mesh->owned_tets;
@@ -90,6 +90,7 @@ OstStatus ost_orders_of_product(Search *search, const double *u, const double *t
     }
     OST_FREE(of_second);
     OST_TRY(ost_sum(ctx, 2, sums));
+    *unsigned_sum = sums[0];
     *factor = sums[0] > 0.0 ? sums[1] / sums[0] : 1.0;
     return OST_SUCCESS;
 }

@@ -36,6 +36,7 @@ typedef struct OstEstimate {
     float *factor;       /* of the functions' blocks, once they are known */
     int has_factor;      /* of linear theory */
     int knows_orders;    /* do the orders of u tell what orders above the next add to e? */
+    int misses;          /* do stiff directions cross quadratic tets, so that orders above are missed? */
     OstEarlier *earlier; /* what was found for other loads; or NULL */
     int keeps;           /* is what is found kept, for loads that are sums? */
     OstKeptError kept;
@@ -105,9 +106,9 @@ typedef struct OstOrders {
 /* Collective. How many times as large the product of the errors of u and of an adjoint problem is with the orders that
  * are higher still: where both have a share of their own, r, that of the product is the root of both, so that the
  * product of an error with itself is its square. tet_error: each tet's share of |e|² of u, with those orders.
- * Overwrites as above. */
+ * *unsigned_sum: of the third order's products of all tets, as if all had one sign. Overwrites as above. */
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
-                                double *factor);
+                                double *factor, double *unsigned_sum);
 
 /* Local. The largest absolute value of some numbers. */
 double ost_search_largest(size_t count, const double *numbers);

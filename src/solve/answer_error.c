@@ -134,7 +134,7 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
             status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
                                            &found->error, found->share);
         found->value = interest.value;
-        found->doubt = interest.doubt;
+        found->doubt = interest.moved && ost_estimate_misses(estimate) ? fabs(found->error) : interest.doubt;
         found->size = interest.size;
         ost_interest_clear(&interest);
         OST_TRY(status);
