@@ -514,14 +514,14 @@ const double *ost_adjoint_pressure(const OstAdjoint *adjoint)
 }
 
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                                const OstInterest *interest, double *error, double *tet_share)
+                                const OstInterest *interest, double share, double *error, double *tet_share)
 {
     const OstProblem *problem = estimate->problem;
     OstAdjoint *adjoint = NULL;
     double *of_adjoint = NULL;
     *error = NAN;
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_adjoint, problem->mesh->owned_tets)));
-    OstStatus status = create(estimate, solver, &(Wanted){interest, t, u, 0.0, of_adjoint}, &adjoint);
+    OstStatus status = create(estimate, solver, &(Wanted){interest, t, u, share, of_adjoint}, &adjoint);
     if (adjoint) {
         OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, tet_share, error));
         if (!interest->moved) /* unlike a reaction, which is the work of u on z, on which the exact error does none */

@@ -73,12 +73,14 @@ void ost_estimate_add(const OstEstimate *estimate, const double *error, const Os
 /* Collective. By how much the exact value of a quantity of interest is larger than that of u, by the adjoint problem: z
  * is the displacement whose load (or given motion) is that of the quantity, e_z its surplus, and the error is the work
  * of u's residual on e_z (R. Becker and R. Rannacher, An optimal control approach to a posteriori error estimation,
- * 2001). u solves the problem's equations well. `share`: owned_tets numbers, on entry each tet's share of the squared
- * error of u in the norm of the energy, as ost_estimate_find has it; then of the quantity's error, where a mesh should
- * be refined for it. They add up to |error|, or to a tenth of what all tets could add to if their errors had one sign,
- * if that is more. NAN: not known. Where rotations are large, the adjoint problem is that of the stiffness at u. */
+ * 2001). u solves the problem's equations well; those of z are solved to an error of `share` of it in the norm of the
+ * energy, or, if that is 0, to the solver's residual. `tet_share`: owned_tets numbers, on entry each tet's share of the
+ * squared error of u in the norm of the energy, as ost_estimate_find has it; then of the quantity's error, where a mesh
+ * should be refined for it. They add up to |error|, or to a tenth of what all tets could add to if their errors had one
+ * sign, if that is more. NAN: not known. Where rotations are large, the adjoint problem is that of the stiffness at u.
+ */
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
-                                const OstInterest *interest, double *error, double *share);
+                                const OstInterest *interest, double share, double *error, double *tet_share);
 
 /* Local. Do stiff directions cross quadratic tets, so that what the next order misses is in the errors of reactions, of
  * unknown sign? */

@@ -195,11 +195,13 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     plan->bytes_effects = adjoints;
     for (int e = OST_EFFECT_FIRST; e < OST_EFFECT_END; e++)
         plan->bytes_effects += ost_effect_state(&plan->effects, (OstEffect)e)->bytes;
+    /* A level of vertices that turn stays while the error is estimated. */
+    const double turning = plan->coarsening == OST_COARSEN_VERTICES ? of_coarsening[plan->coarsening] : 0.0;
+    const double hierarchy = plan->levels.kept + turning * counts->nodes;
     const double potentials = ost_effect_state(&plan->effects, OST_EFFECT_GRADIENT_AXES)->bytes; /* given back before */
     const double kept = plan->bytes_mesh + plan->bytes_effects - estimate - recovery - potentials;
-    plan->bytes_in_all =
-        fmax(kept + potentials,
-             kept + plan->bytes_matrix + fmax(fmax(plan->bytes_solver, plan->levels.kept + estimate), recovery));
+    plan->bytes_in_all = fmax(kept + potentials, kept + plan->bytes_matrix +
+                                                     fmax(fmax(plan->bytes_solver, hierarchy + estimate), recovery));
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }
 

@@ -5,6 +5,7 @@
 #include "formats/serial/output_array.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 OstStatus ost_read_element(const OstYaml *yaml, const OstYamlNode *node, OstCase *c)
@@ -211,7 +212,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
         {COARSE, above_1, 1e6, "a number of nodes above 1, at most 1e6", &solver->coarse_aggregate_nodes},
         {BLOCK, 1.0, 1e3, "a number of nodes from 1 to 1000", &solver->smoother_block_nodes},
         {RATIO, above_1, 1e6, "a number above 1, at most 1e6", &solver->smoother_ratio},
-        {MEMORY, DBL_TRUE_MIN, 1e12, "a number of MiB above 0, at most 1e12", &mebibytes},
+        {MEMORY, 0.0, 1e12, "a number of MiB from 0 to 1e12", &mebibytes},
     };
     OST_TRY(ost_yaml_mapping(yaml, node, keys, SOLVER_KEYS));
     for (int n = 0; n < OST_COUNT_OF(numbers); n++) {
@@ -223,7 +224,7 @@ OstStatus ost_read_solver(const OstYaml *yaml, const OstYamlNode *node, OstCase 
             return ost_yaml_raise_type(yaml, value, numbers[n].expected, "");
     }
     if (keys[MEMORY].value)
-        solver->factor_memory = 1048576.0 * mebibytes;
+        solver->factor_memory = fmax(1048576.0 * mebibytes, DBL_TRUE_MIN); /* an option of 0 is all that is free */
     OST_TRY(read_method(yaml, &keys[METHOD], &solver->method));
     OST_TRY(read_count(yaml, &keys[ITERATIONS], 1000000, &solver->max_iterations));
     OST_TRY(read_count(yaml, &keys[PATIENCE], 1000000, &solver->patience));

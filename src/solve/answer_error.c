@@ -132,6 +132,8 @@ static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *est
         OstStatus status = ost_interest_create(&state, watch, t, result->displacement, &interest);
         if (status == OST_SUCCESS && !by_statics.known)
             status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
+                                           ost_problem_is_linear(&state) ? ost_share_of_adjoint(result->answer.relative)
+                                                                         : 0.0,
                                            &found->error, found->share);
         found->value = interest.value;
         found->doubt = interest.moved && ost_estimate_misses(estimate) ? fabs(found->error) : interest.doubt;
@@ -202,6 +204,15 @@ static OstStatus renew_solver(OstAnalysis *analysis, double t, const OstResult *
     return move_stiffness(analysis, t, result, 1, OST_UPDATE_REBUILD);
 }
 
+/* The reaction that the case asks about has its error already, unless its adjoint problem is to say what a solve that
+ * was stopped has left of it, too. */
+static void take_interest(const OstCase *c, OstResult *result)
+{
+    const OstInterestError *interest = &result->interest;
+    if (interest->watch && interest->watch->kind == OST_WATCH_REACTION && !result->solve.stopped)
+        result->reactions[c->interest - 1] = (OstWatchedReaction){.known = 1, .error = interest->error};
+}
+
 /* Of watched reactions and mean stresses, one for each quantity; by linear theory load cases, and a path's steps, share
  * adjoint problems.
  */
@@ -215,6 +226,7 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
+    take_interest(problem->scene->c, result);
     return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
                               result->answer.relative, result->tet_error, shares ? kept : NULL, result->reactions);
 }

@@ -310,8 +310,8 @@ static void bad_settings_are_refused(void **state)
                    "3:20: solver.patience: found '0', expected a whole number from 1 to 1000000");
     assert_refused(CUBE STEEL "solver: {most_levels: 13}\n",
                    "3:23: solver.most_levels: found '13', expected a whole number from 1 to 12");
-    assert_refused(CUBE STEEL "solver: {factor_memory: 0}\n",
-                   "3:25: solver.factor_memory: found '0', expected a number of MiB above 0, at most 1e12");
+    assert_refused(CUBE STEEL "solver: {factor_memory: -1}\n",
+                   "3:25: solver.factor_memory: found '-1', expected a number of MiB from 0 to 1e12");
     assert_refused(CUBE STEEL "solver: {factor_memory: 1e300}\n",
                    "3:25: solver.factor_memory: found '1e300', expected a number of at most 1e75 in size (squares of "
                    "larger ones leave double precision; choose other units)");

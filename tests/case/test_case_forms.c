@@ -394,6 +394,10 @@ static void settings_are_read(void **state)
     assert_string_equal(c->output_file, "a.vtkhdf");
     assert_int_equal(c->output_fields, 1U << OST_FIELD_DISPLACEMENT | 1U << OST_FIELD_RANK);
     ost_case_destroy(&c);
+    snprintf(whole, sizeof whole, "%s%ssolver: {factor_memory: 0}\n", cube, steel);
+    assert_success(read_text(whole, &c));
+    assert_true(c->solver.factor_memory > 0.0 && c->solver.factor_memory < 1.0); /* 0: all that is free */
+    ost_case_destroy(&c);
 }
 
 static void aliases_stand_for_their_anchors(void **state)

@@ -13,6 +13,11 @@
 /* The adjoint problem is solved to this share of the error of u, within bounds: both errors count as a product. */
 static const double share_of_error = 0.1, least_share = 1e-4, most_share = 2e-3;
 
+double ost_share_of_adjoint(double relative)
+{
+    return fmin(fmax(share_of_error * relative, least_share), most_share);
+}
+
 void ost_reactions_clear(OstReactions *kept)
 {
     for (int k = 0; k < kept->count; k++) {
@@ -325,7 +330,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
                              OstWatchedReaction *found)
 {
     const OstCase *c = problem->scene->c;
-    const double share = fmin(fmax(share_of_error * relative, least_share), most_share);
+    const double share = ost_share_of_adjoint(relative);
     double *imbalance = NULL, *rigid = NULL;
     if (!ost_reactions_are_watched(problem))
         return OST_SUCCESS;
@@ -334,7 +339,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
     OST_THEN(ost_mean_stresses_find(problem, estimate, solver, t, u, imbalance, tet_error, kept, found));
     for (int w = 0; w < c->watch_count && status == OST_SUCCESS && is_work(problem); w++) {
         Search search = {problem, &c->watches[w], {0}, rigid, imbalance};
-        if (search.watch->kind != OST_WATCH_REACTION)
+        if (search.watch->kind != OST_WATCH_REACTION || found[w].known)
             continue;
         status = find_by_statics(&search, t, u, &found[w]);
         if (status != OST_SUCCESS || found[w].known || !ost_reactions_have_adjoint(problem))

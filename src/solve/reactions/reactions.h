@@ -27,6 +27,9 @@ typedef struct OstReactions {
 } OstReactions;
 void ost_reactions_clear(OstReactions *kept);
 
+/* Local. To which share of z an adjoint problem is solved: u has this relative error in the norm of the energy. */
+double ost_share_of_adjoint(double relative);
+
 /* Local. May the solve stop early, although the case watches reactions? Not where nodes follow others or the pressure
  * is an unknown. */
 int ost_reactions_allow_stop(const OstProblem *problem);
@@ -48,8 +51,9 @@ OstStatus ost_mean_stresses_find(const OstProblem *problem, OstEstimate *estimat
                                  OstWatchedReaction *found);
 
 /* Collective. What is to be added to each watched reaction and mean stress, and its error: found (one for each quantity
- * watched) is filled for those that are known. `relative`: the error of u in the norm of the energy, and tet_error each
- * tet's share of its square. What is found for this load is kept for the next, unless `kept` is NULL. */
+ * watched) is filled for those that are known, and stays where it was known before. `relative`: the error of u in the
+ * norm of the energy, and tet_error each tet's share of its square. What is found for this load is kept for the next,
+ * unless `kept` is NULL. */
 OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, OstSolver *solver, double t,
                              const double *u, double relative, const double *tet_error, OstReactions *kept,
                              OstWatchedReaction *found);
