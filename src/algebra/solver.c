@@ -596,9 +596,3 @@ OstStatus ost_solver_share(const OstSolver *solver, OstSolver **shared)
     (*shared)->aim = (OstSolverAim){0};
     return OST_SUCCESS;
 }
-
-void ost_solver_learn(OstSolver *solver, const OstSolver *other)
-{
-    if (other->smallest > 0.0 && !(solver->smallest > 0.0 && solver->smallest <= other->smallest))
-        solver->smallest = other->smallest;
-}

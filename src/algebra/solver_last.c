@@ -60,3 +60,9 @@ void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const Os
         return;
     }
 }
+
+void ost_solver_learn(OstSolver *solver, const OstSolver *other)
+{
+    if (other->smallest > 0.0 && !(solver->smallest > 0.0 && solver->smallest <= other->smallest))
+        solver->smallest = other->smallest;
+}
