@@ -15,7 +15,7 @@
 /* Numbers of a sample that the rank with the tet has, and all get by a sum. */
 enum { BETTER = 3 + OST_STRESS_MEASURES, WIDTH = BETTER + OST_STRESS_MEASURES };
 
-static OstStatus sample(const OstResult *result, const OstLocated *located, double row[WIDTH])
+static OstStatus sample(const OstResult *result, const OstLocated *located, const double point[3], double row[WIDTH])
 {
     const OstMesh *mesh = result->mesh;
     const OstLocal *nodes = ost_mesh_nodes_of(mesh, located->tet);
@@ -41,14 +41,18 @@ static OstStatus sample(const OstResult *result, const OstLocated *located, doub
         OST_TRY(ost_stress_measure(result, located->tet, stress, (OstStressMeasure)m, &row[3 + m]));
         OST_TRY(ost_stress_measure(result, located->tet, with_error, (OstStressMeasure)m, &row[BETTER + m]));
     }
+    enum { ALONG_AXES = OST_STRESS_MEASURE_11 };
+    ost_result_material_stress_at(result, located->tet, located->at, point, stress, &row[3 + ALONG_AXES]);
+    ost_result_material_stress_at(result, located->tet, located->at, point, better, &row[BETTER + ALONG_AXES]);
     return OST_SUCCESS;
 }
 
-static OstStatus sample_own(const OstResult *result, OstLocal count, const OstLocated *located, double *rows)
+static OstStatus sample_own(const OstResult *result, OstLocal count, const OstLocated *located, const double *points,
+                            double *rows)
 {
     for (OstLocal p = 0; p < count; p++)
         if (located[p].tet >= 0)
-            OST_TRY(sample(result, &located[p], rows + WIDTH * (size_t)p));
+            OST_TRY(sample(result, &located[p], points + 3 * (size_t)p, rows + WIDTH * (size_t)p));
     return OST_SUCCESS;
 }
 
@@ -62,7 +66,7 @@ OstStatus ost_sample_points(const OstResult *result, OstLocal count, const doubl
     OST_THEN(OST_NEW(ctx, &rows, WIDTH * (size_t)count));
     OST_TRY_DONE(ost_agree(ctx, status));
     OST_TRY_DONE(ost_locate(result->mesh, count, points, located));
-    OST_TRY_DONE(ost_agree(ctx, sample_own(result, count, located, rows)));
+    OST_TRY_DONE(ost_agree(ctx, sample_own(result, count, located, points, rows)));
     OST_TRY_DONE(ost_sum(ctx, WIDTH * count, rows));
     for (OstLocal p = 0; p < count; p++) {
         const double *row = rows + WIDTH * (size_t)p;

@@ -53,21 +53,30 @@ static void strain_of(const OstResult *result, OstLocal tet, double strain[6])
         strain[p] = (p < 3 ? 1.0 : 0.5) * result->strain[6 * (size_t)tet + (size_t)p];
 }
 
-/* As they have turned with the tet, where rotations are large. */
-static void axes_now(const OstResult *result, OstLocal tet, double axes[9])
+/* Axes turn with the tet, where rotations are large. */
+static void stress_along(const OstResult *result, OstLocal tet, const double before[9], const double stress[6],
+                         double own[6])
 {
-    double before[9];
-    ost_field_axes(result->field, tet, before);
-    memcpy(axes, before, sizeof before);
+    double axes[9];
+    memcpy(axes, before, sizeof axes);
     for (int k = 0; result->rotation && k < 3; k++)
         ost_apply3(result->rotation + 9 * (size_t)tet, before + 3 * k, axes + 3 * k);
+    ost_tensor_along(stress, axes, own);
 }
 
 void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6])
 {
     double axes[9];
-    axes_now(result, tet, axes);
-    ost_tensor_along(stress, axes, own);
+    ost_field_axes(result->field, tet, axes);
+    stress_along(result, tet, axes, stress, own);
+}
+
+void ost_result_material_stress_at(const OstResult *result, OstLocal tet, const double at[4], const double point[3],
+                                   const double stress[6], double own[6])
+{
+    double axes[9];
+    ost_field_axes_at(result->field, tet, at, point, axes);
+    stress_along(result, tet, axes, stress, own);
 }
 
 OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,

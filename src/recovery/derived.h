@@ -17,6 +17,11 @@ OstStatus ost_result_derive(const OstResult *result, OstOutputFieldBit field, do
 /* Local. A stress of a tet, in world axes, along its material axes. */
 void ost_result_material_stress(const OstResult *result, OstLocal tet, const double stress[6], double own[6]);
 
+/* Local. The same along the axes at a point of the tet, in barycentric coordinates and in the undeformed body: they may
+ * vary within it. */
+void ost_result_material_stress_at(const OstResult *result, OstLocal tet, const double at[4], const double point[3],
+                                   const double stress[6], double own[6]);
+
 /* Local. A number that is made of a stress of a tet, in world axes. */
 OstStatus ost_stress_measure(const OstResult *result, OstLocal tet, const double stress[6], OstStressMeasure measure,
                              double *value);

@@ -146,6 +146,23 @@ solve(BLOCK + "path: {steps: 2}\n", name="path.yaml")
 near(rows("out_0001_through.csv")[3]["stress_xx"], 500, "the first step")
 near([row["knot"] for row in rows("out_history.csv")], [500 * c * c, 1000 * c * c], "the history")
 
+# Axes are those of the point, which turn within a tet: Lame's thick cylinder under pressure, of three tets through its wall.
+solve("""mesh: {sector: {axis: z, length: 1, radii: [1, 2], angle: 90, divisions: {around: 6, radial: 3, axial: 2}}}
+element: {order: 2}
+large_rotation: off
+materials: [{region: all, youngs_modulus: [100, 100, 100.0001], poissons_ratio: 0.3, axes: {cylindrical: {origin: [0, 0, 0], axis: [0, 0, 1], order: [radial, tangential, axial]}}}]
+constraints: [{on: {boundary: start}, slide: [1, 0, 0]}, {on: {boundary: finish}, slide: [0, 1, 0]}, {on: {boundary: bottom}, slide: [0, 0, 1]}, {on: {boundary: top}, slide: [0, 0, 1]}]
+loads: [{on: {boundary: inner}, pressure: 1}]
+output: {file: lame.vtu, probes: {r: {from: [0.7072, 0.7072, 0.5], to: [1.414, 1.414, 0.5], count: 5}}}
+watch: {hoop: {stress: {at: [1.0606, 1.0606, 0.5]}, component: 22}, shear: {stress: {at: [1.0606, 1.0606, 0.5]}, component: 12}}
+""", name="lame.yaml")
+for row in rows("lame_r.csv"):
+    r = (row["x"] ** 2 + row["y"] ** 2) ** 0.5
+    near([row["stress_22"], row["stress_12"]], [(1 + 4 / r ** 2) / 3, 0], f"the hoop at r = {r}", tolerance=0.025)
+with open(os.path.join(folder, "summary.json")) as stream:
+    watched = json.load(stream)["watched"]
+near([watched["hoop"]["value"], watched["shear"]["value"]], [(1 + 4 / 2.25) / 3, 0], "the hoop that is watched", tolerance=0.01)
+
 # What is asked for wrongly.
 for before, after, message in (
         ("at: [1.1, 0.3, 0.4]", "at: [9, 9, 9]", "'knot' is at (9, 9, 9), which is outside the body"),
