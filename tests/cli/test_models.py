@@ -207,6 +207,15 @@ check(faces("free.inp", FREE) == {"FREE": (3, 1.5), "SHELLS": (1, 0.5), "MIXED":
                                   "ALL": (6, round(3 * TOP + 1.5, 6)), "ONCE": (3, 1.5), "FRONT": (1, 0.5), "SKIN": (1, 0.5)},
       f"{faces('free.inp', FREE)}")
 
+# Shells and sets with nodes of their own at the places of the solid's; not where two parts meet, as it is unknown whose they are.
+SKIN = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n11,0,0,0\n12,1,0,0\n13,0,1,-0.\n*ELEMENT,TYPE=C3D4,ELSET=E\n1,1,2,3,4\n" \
+       "*ELEMENT,TYPE=S3,ELSET=SKIN\n3,11,12,13\n*NSET,NSET=SUP\n11,12\n"
+for text, expected in ((SKIN, {"SKIN": 1, "SUP": 2}), (SKIN.replace("*ELEMENT,TYPE=S3", "*NODE\n21,0,0,0\n22,1,0,0\n23,0,0,-1\n24,0,1,0\n"
+                       "*ELEMENT,TYPE=C3D4,ELSET=F\n2,21,22,23,24\n*ELEMENT,TYPE=S3"), {"SKIN": 0, "SUP": 0})):
+    said = warnings("skin.inp", text)
+    run("mesh", "skin.inp", "--json", "skin.json", folder=folder)
+    check({b["name"]: b["count"] for b in read_json(folder, "skin.json")["boundaries"]} == expected and "3 vertices are used by no tet" in said, said)
+
 # Of what is split into tets, of quadratic tets, and of instances that are moved and turned: outside alone.
 CUBES = BAR.replace("*Orientation", "**").replace(", orientation=Grain", "").replace("*End Part", """*Node
 9, 0, 0, 2

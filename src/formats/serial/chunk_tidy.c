@@ -2,6 +2,7 @@
 #include "formats/serial/chunk_tidy.h"
 
 #include "core/error.h"
+#include "core/index_map.h"
 #include "core/memory.h"
 #include "core/small.h"
 #include "formats/serial/label_index.h"
@@ -148,23 +149,67 @@ static OstLocal move_items(OstBoundary *boundary, const OstLocal *number)
     return before - boundary->count;
 }
 
+static void key_of(const OstMeshChunk *chunk, OstLocal node, OstGlobal key[3])
+{
+    double place[3];
+    for (int d = 0; d < 3; d++)
+        place[d] = chunk->coordinates[3 * (size_t)node + (size_t)d] + 0.0; /* -0 becomes 0 */
+    memcpy(key, place, sizeof place);
+}
+
+/* Shells and sets may have nodes of their own at the very places of the tets'. Finds the number of the one that a tet
+ * has there; -1 where there is none, or more than one. */
+static OstStatus find_twins(const OstMeshChunk *chunk, const OstLocal *number, OstLocal *twin)
+{
+    OstIndex *index = NULL;
+    OstLocal *at = NULL; /* of each place */
+    OstGlobal key[3];
+    OstStatus status = ost_index_create(chunk->ctx, 3, &index);
+    OST_THEN(OST_NEW(chunk->ctx, &at, chunk->node_count));
+    for (OstLocal n = 0; n < chunk->node_count && status == OST_SUCCESS; n++) {
+        OstLocal k = 0;
+        if (number[n] < 0)
+            continue;
+        const OstLocal known = index->count;
+        key_of(chunk, n, key);
+        status = ost_index_place(index, key, &k);
+        at[k] = k == known ? number[n] : -1;
+    }
+    for (OstLocal n = 0; n < chunk->node_count && status == OST_SUCCESS; n++) {
+        key_of(chunk, n, key);
+        const OstLocal k = number[n] < 0 ? ost_index_find(index, key) : -1;
+        twin[n] = k >= 0 ? at[k] : -1;
+    }
+    ost_index_destroy(&index);
+    OST_FREE(at);
+    return status;
+}
+
 OstStatus ost_nodes_leave_out(OstMeshChunk *chunk, const char *path)
 {
-    OstLocal *number = NULL;
+    OstLocal *number = NULL, *twin = NULL;
+    const OstLocal all = chunk->node_count;
     char more[80] = "";
     OstGlobal items = 0;
-    OST_TRY(OST_NEW(chunk->ctx, &number, chunk->node_count));
-    const OstLocal used = number_used(chunk, number);
-    const OstLocal unused = chunk->node_count - used;
+    OstStatus status = OST_NEW(chunk->ctx, &number, all);
+    OST_THEN(OST_NEW(chunk->ctx, &twin, all));
+    const OstLocal used = status == OST_SUCCESS ? number_used(chunk, number) : all;
+    if (used < all)
+        OST_THEN(find_twins(chunk, number, twin));
+    if (status != OST_SUCCESS)
+        goto done;
     move_nodes(chunk, number);
+    for (OstLocal n = 0; n < all; n++)
+        number[n] = number[n] < 0 ? twin[n] : number[n];
     for (int b = 0; b < chunk->boundary_count; b++)
         items += move_items(&chunk->boundaries[b], number);
     chunk->global_nodes = chunk->node_count = used;
     if (items > 0)
         snprintf(more, sizeof more, ", and %" PRId64 " points, curves and faces of boundaries with them", items);
-    if (unused > 0)
-        ost_warn(chunk->ctx, "%s: %d %s used by no tet and left out%s", path, unused,
-                 unused == 1 ? "vertex is" : "vertices are", more);
-    OST_FREE(number);
-    return OST_SUCCESS;
+    if (used < all)
+        ost_warn(chunk->ctx, "%s: %d %s used by no tet and left out%s", path, all - used,
+                 all - used == 1 ? "vertex is" : "vertices are", more);
+done:
+    OST_FREE(number, twin);
+    return status;
 }
