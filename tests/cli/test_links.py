@@ -58,7 +58,8 @@ def a_rigid_face_bends_a_bar():
     near(turned["moment"], 5, 1e-8, "the moment for a rotation")
     near(turned["tip"], 0.4, 1e-8, "the tip of a turned bar")
     check(abs(turned["force"]) < 1e-6, f"a face that may move has the force {turned['force']}")
-    finished, _, _ = solve(bar("{at: [4, 0.5, 0.5], rotation: [0, 0, 90]}"))
+    folder = new_folder()
+    finished = run("check", write(folder, "case.yaml", bar("{at: [4, 0.5, 0.5], rotation: [0, 0, 90]}")), folder=folder)
     check("a rotation of 90 is in radians" in finished.errors, finished.errors)
     held = watched(bar("{at: [4, 0.5, 0.5], displacement: [0, 0, 0], rotation: [0, 0, 0.2]}"))
     clamped = watched(bar("{at: [4, 0.5, 0.5], displacement: [free, 0, free], rotation: [free, free, 0.2]}"))
@@ -394,16 +395,15 @@ def tied_parts_turn_as_one():
     folder = new_folder()
     bars = [("a", (0, 0, 0), (2, 1, 1), (4, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (4, 2, 2), "b")]
     brick_mesh(os.path.join(folder, "two.msh"), bars)
-    for nu, ranks in ("0.3", (1, 3)), ("0.5", (2,)):
+    for nu, ranks in ("0.3", (3,)), ("0.5", (2,)):
         text = TURNED.replace("NU", nu)
         merged = text.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", "")
         _, expected, _ = solve(merged, folder=folder)
         values = watched(text, folder, ranks)
         for name, value in values.items():
             near(value, expected["watched"][name]["value"], 1e-7, f"nu = {nu}, as the merged mesh: {name}")
-    for more, ranks in ("solver: {method: metric}\n", 1), ("path: {steps: 2}\n", 3):
-        again = watched(TURNED.replace("NU", "0.5") + more, folder, (ranks,))
-        near(again["tip"], values["tip"], 1e-6, f"{more}: the tip")
+    again = watched(TURNED.replace("NU", "0.5") + "solver: {method: metric}\npath: {steps: 2}\n", folder, (1,))
+    near(again["tip"], values["tip"], 1e-6, "the tip at the end of a path")
     pulled = [case.replace("[0, 0, 15]", "[20, 0, 0.2]").replace("rotation: on", "rotation: auto") for case in (text, merged)]
     left_out = [solve(case, ranks=2, folder=folder)[1]["large_rotation"]["linear_change"] for case in pulled]
     near(left_out[0], left_out[1], 1e-3, "what linear theory leaves out")
