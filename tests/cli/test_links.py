@@ -393,15 +393,18 @@ accuracy: {relative_residual: 1e-9}
 def tied_parts_turn_as_one():
     """Two bars that bend by 45 degrees: as the merged mesh, and where the meshes differ about so."""
     folder = new_folder()
-    bars = [("a", (0, 0, 0), (2, 1, 1), (4, 2, 2), "a"), ("b", (2, 0, 0), (2, 1, 1), (4, 2, 2), "b")]
+    cuts = (2, 1, 1) if SANITIZED else (4, 2, 2)
+    bars = [("a", (0, 0, 0), (2, 1, 1), cuts, "a"), ("b", (2, 0, 0), (2, 1, 1), cuts, "b")]
     brick_mesh(os.path.join(folder, "two.msh"), bars)
-    for nu, ranks in ("0.3", (3,)), ("0.5", (2,)):
+    for nu, ranks in fewer((("0.3", (3,)), ("0.5", (2,)))):
         text = TURNED.replace("NU", nu)
         merged = text.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", "")
         _, expected, _ = solve(merged, folder=folder)
         values = watched(text, folder, ranks)
         for name, value in values.items():
             near(value, expected["watched"][name]["value"], 1e-7, f"nu = {nu}, as the merged mesh: {name}")
+    if SANITIZED:
+        return
     again = watched(TURNED.replace("NU", "0.5") + "solver: {method: metric}\npath: {steps: 2}\n", folder, (1,))
     near(again["tip"], values["tip"], 1e-6, "the tip at the end of a path")
     pulled = [case.replace("[0, 0, 15]", "[20, 0, 0.2]").replace("rotation: on", "rotation: auto") for case in (text, merged)]
