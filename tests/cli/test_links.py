@@ -396,7 +396,7 @@ def tied_parts_turn_as_one():
     cuts = (2, 1, 1) if SANITIZED else (4, 2, 2)
     bars = [("a", (0, 0, 0), (2, 1, 1), cuts, "a"), ("b", (2, 0, 0), (2, 1, 1), cuts, "b")]
     brick_mesh(os.path.join(folder, "two.msh"), bars)
-    for nu, ranks in fewer((("0.3", (3,)), ("0.5", (2,)))):
+    for nu, ranks in fewer((("0.3", (2,)), ("0.5", (2 if SANITIZED else 1,)))):
         text = TURNED.replace("NU", nu)
         merged = text.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", "")
         _, expected, _ = solve(merged, folder=folder)
@@ -408,11 +408,11 @@ def tied_parts_turn_as_one():
     again = watched(TURNED.replace("NU", "0.5") + "solver: {method: metric}\npath: {steps: 2}\n", folder, (1,))
     near(again["tip"], values["tip"], 1e-6, "the tip at the end of a path")
     pulled = [case.replace("[0, 0, 15]", "[20, 0, 0.2]").replace("rotation: on", "rotation: auto") for case in (text, merged)]
-    left_out = [solve(case, ranks=2, folder=folder)[1]["large_rotation"]["linear_change"] for case in pulled]
+    left_out = [solve(case, folder=folder)[1]["large_rotation"]["linear_change"] for case in pulled]
     near(left_out[0], left_out[1], 1e-3, "what linear theory leaves out")
     bars[1] = ("b", (2, 0, 0), (2, 1, 1), (4, 4, 4), "b")
     brick_mesh(os.path.join(folder, "two.msh"), bars)
-    near(watched(TURNED.replace("NU", "0.5"), folder, (2,))["tip"], values["tip"], 5e-3, "the tip of bars whose meshes differ")
+    near(watched(TURNED.replace("NU", "0.5"), folder, (1,))["tip"], values["tip"], 5e-3, "the tip of bars whose meshes differ")
     bars[1] = ("b", (2.1, 0, 0), (2, 1, 1), (4, 4, 4), "b")
     brick_mesh(os.path.join(folder, "two.msh"), bars)
     gap = TURNED.replace("NU", "0.3").replace("a_xmax}}", "a_xmax}, tolerance: 0.2}")
