@@ -7,8 +7,8 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "element/large_rotation.h"
+#include "element/point_stress.h"
 #include "element/polar.h"
-#include "element/strain_batch.h"
 #include "mesh/mesh_data.h"
 
 #include <string.h>
@@ -85,25 +85,11 @@ OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *e
     const OstQuadrature *rule = element->rule(batch->x, elasticity);
     *work = (OstSimd){0};
     for (int q = 0; q < rule->count; q++) {
-        const int at = ost_elasticity_at(elasticity, q);
         OstPoint point;
-        OstSimd gradient[9], strain[6], elastic[6], stress[6];
+        OstSimd gradient[9], stress[6];
         element->evaluate(batch->x, &rule->point[q], &point);
         ost_displacement_gradient(element->nodes, &point, u, gradient);
-        for (int p = 0; p < 6; p++) {
-            const int i = p % 3, j = (i + 1) % 3;
-            strain[p] = p < 3 ? gradient[4 * i] : gradient[3 * i + j] + gradient[3 * j + i];
-        }
-        ost_elastic_strain(elasticity, at, strain, elastic);
-        ost_simd_stress(elasticity->c[at], elastic, stress);
-        for (int p = 0; p < 6 && elasticity->by_mean; p++)
-            stress[p] += means->stiff * elasticity->m[at][p];
-        if (elasticity->mixed) {
-            OstSimd pressure;
-            ost_pressure_at(elasticity, rule->point[q].at, &pressure);
-            for (int p = 0; p < 6; p++)
-                stress[p] += pressure * elasticity->m[at][p];
-        }
+        ost_point_stress(elasticity, &rule->point[q], ost_elasticity_at(elasticity, q), gradient, means, stress);
         add_stress_work(&point.volume, gradient, stress, work);
     }
 }

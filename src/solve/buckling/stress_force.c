@@ -4,7 +4,7 @@
 #include "assembly/batch.h"
 #include "core/kernel.h"
 #include "element/large_rotation.h"
-#include "element/strain_batch.h"
+#include "element/point_stress.h"
 
 #include <string.h>
 
@@ -14,26 +14,6 @@ typedef struct Stressed {
     OstPoint point[OST_MAX_POINTS];
     OstSimd stress[OST_MAX_POINTS][9]; /* the whole matrix, times the point's volume */
 } Stressed;
-
-static inline void find_stress(const OstElasticity *elasticity, const OstQuadraturePoint *point, int at,
-                               const OstSimd gradient[9], const OstMeans *means, OstSimd stress[6])
-{
-    OstSimd strain[6], elastic[6];
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = (i + 1) % 3;
-        strain[p] = p < 3 ? gradient[4 * i] : gradient[3 * i + j] + gradient[3 * j + i];
-    }
-    ost_elastic_strain(elasticity, at, strain, elastic);
-    ost_simd_stress(elasticity->c[at], elastic, stress);
-    for (int p = 0; p < 6 && elasticity->by_mean; p++)
-        stress[p] += means->stiff * elasticity->m[at][p];
-    if (elasticity->mixed) {
-        OstSimd pressure;
-        ost_pressure_at(elasticity, point->at, &pressure);
-        for (int p = 0; p < 6; p++)
-            stress[p] += pressure * elasticity->m[at][p];
-    }
-}
 
 OST_KERNEL static void find_stresses(const OstBatch *batch, const OstElement *element, const OstSimd *u, Stressed *tets)
 {
@@ -48,7 +28,7 @@ OST_KERNEL static void find_stresses(const OstBatch *batch, const OstElement *el
         OstSimd gradient[9], stress[6];
         element->evaluate(batch->x, &rule->point[q], &tets->point[q]);
         ost_displacement_gradient(element->nodes, &tets->point[q], u, gradient);
-        find_stress(elasticity, &rule->point[q], ost_elasticity_at(elasticity, q), gradient, &means, stress);
+        ost_point_stress(elasticity, &rule->point[q], ost_elasticity_at(elasticity, q), gradient, &means, stress);
         for (int n = 0; n < 9; n++)
             tets->stress[q][n] = stress[place[n]] * tets->point[q].volume;
     }
