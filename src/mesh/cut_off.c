@@ -97,11 +97,15 @@ static double cut_off_volume(Side *sides, OstLocal count)
 
 OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share)
 {
-    const OstSurface *surface = NULL;
+    OstSurface *own = NULL;
+    const OstSurface *surface = mesh->surface;
     Side *sides = NULL;
     double volume[2] = {0.0, 0.0};
     *share = 0.0;
-    OST_TRY(ost_mesh_surface(mesh, &surface));
+    if (!surface) /* the whole is not needed */
+        OST_TRY(ost_surface_create(mesh, mesh->at_surface, &own));
+    if (own)
+        surface = own;
     OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &sides, 3 * (size_t)surface->count));
     if (status == OST_SUCCESS) {
         volume[0] = cut_off_volume(sides, list_sides(mesh, surface, sides));
@@ -110,6 +114,7 @@ OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share)
         status = ost_sum(mesh->ctx, 2, volume);
     }
     OST_FREE(sides);
+    ost_surface_destroy(&own);
     if (status == OST_SUCCESS && volume[1] > 0.0)
         *share = volume[0] / volume[1];
     return status;

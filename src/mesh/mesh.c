@@ -17,6 +17,7 @@ void ost_mesh_destroy(OstMesh **mesh)
         return;
     OST_FREE(old->node_number, old->node_label, old->tet_label, old->coordinates, old->tet_nodes, old->tet_region,
              old->tet_axes, old->tet_field);
+    OST_FREE(old->at_surface);
     ost_surface_destroy(&old->surface);
     ost_names_clear(&old->regions);
     ost_boundaries_destroy(old->boundary_count, &old->boundaries);

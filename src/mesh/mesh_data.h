@@ -116,6 +116,8 @@ struct OstMesh {
     int straighten;             /* as in the chunk */
     unsigned welded;            /* bits of the above, the same on all ranks; a refined mesh has those of the first */
     struct OstSurface *surface; /* once it was asked for (ost_mesh_surface); or NULL */
+    unsigned char *at_surface;  /* node_count, once components were found: 1 for vertices of the surface's faces that
+                                   have an owned vertex; or NULL */
 };
 
 /* The file's numbers of a node and a tet, for messages. */

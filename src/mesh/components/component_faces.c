@@ -98,6 +98,21 @@ static OstStatus add_all_faces(const OstMesh *mesh, FaceChains *chains, OstLocal
     return OST_SUCCESS;
 }
 
+/* The vertices of faces with a tet on one side alone. What is kept follows from the mesh, which it does not change. */
+static OstStatus keep_surface(const OstMesh *mesh, const FaceChains *chains)
+{
+    unsigned char *at_surface = NULL;
+    OST_TRY(OST_NEW(mesh->ctx, &at_surface, mesh->node_count));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++)
+        for (OstLocal f = chains->first[n]; f > 0; f = chains->face[f].next) {
+            const Face *face = &chains->face[f];
+            if (!face->side[0] || !face->side[1])
+                at_surface[n] = at_surface[face->middle] = at_surface[face->high] = 1;
+        }
+    ((OstMesh *)mesh)->at_surface = at_surface;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal *set_count, OstOverlap *overlap)
 {
     FaceChains chains = {0};
@@ -109,6 +124,8 @@ OstStatus ost_component_faces_join(const OstMesh *mesh, OstLocal *set, OstLocal 
     OST_TRY_DONE(OST_NEW(mesh->ctx, &chains.face, (size_t)mesh->tet_count / 4 * 9 + 64));
     OST_TRY_DONE(add_all_faces(mesh, &chains, set, overlap));
     *set_count = ost_set_number(set, mesh->tet_count);
+    if (!mesh->at_surface)
+        OST_TRY_DONE(keep_surface(mesh, &chains));
 done:
     OST_FREE(chains.first, chains.face);
     return status;
