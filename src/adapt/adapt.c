@@ -209,6 +209,7 @@ static void doubt_linear_theory(const OstAdaption *adaption, OstResult *result, 
 
 static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start)
 {
+    char share[24];
     OstAdaptLevel *level = &adaption->level[adaption->count++];
     OstResult *result = stage->result;
     *level = (OstAdaptLevel){.order = stage->scene->mesh->nodes_per_tet == 10 ? 2 : 1,
@@ -233,9 +234,10 @@ static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start
     OST_TRY(ost_sum(adaption->ctx, 1, &level->bytes));
     OST_TRY(seconds_since(adaption->ctx, start, &level->seconds));
     ost_log(adaption->ctx, OST_LOG_VERBOSE,
-            "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %.2g %% off in %s; %.3f s",
-            adaption->count, level->order, (long long)level->tets, (long long)level->unknowns, level->iterations,
-            100.0 * level->relative_error, is_of_watch(adaption) ? adaption->watch->name : "energy", level->seconds);
+            "level %d: order %d, %lld tets, %lld unknowns, %d iterations, about %s off in %s; %.3f s", adaption->count,
+            level->order, (long long)level->tets, (long long)level->unknowns, level->iterations,
+            ost_percent(level->relative_error, share, sizeof share),
+            is_of_watch(adaption) ? adaption->watch->name : "energy", level->seconds);
     return OST_SUCCESS;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "adapt/adapt.h"
 
+#include "core/error.h"
 #include "core/json_file.h"
 
 #include <stdio.h>
@@ -58,16 +59,16 @@ static void describe_end(const OstAdaption *adaption, char *text, size_t size)
 void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAPT_WORDS])
 {
     const OstAdaptLevel *answer = &adaption->level[adaption->answer];
-    char why[360];
+    char why[360], share[24];
     describe_end(adaption, why, sizeof why);
     int length = snprintf(words, OST_LONGEST_ADAPT_WORDS, "the error asked for, %.3g %%, is not met: %s",
                           100.0 * adaption->request, why);
     if (adaption->end == OST_ADAPT_NO_ESTIMATE || length < 0 || length >= OST_LONGEST_ADAPT_WORDS)
         return;
     snprintf(words + length, (size_t)(OST_LONGEST_ADAPT_WORDS - length),
-             ". The answer is about %.2g %% off%s; as the error fell, with unknowns^-%.2f, meeting it takes about %.2g "
+             ". The answer is about %s off%s; as the error fell, with unknowns^-%.2f, meeting it takes about %.2g "
              "unknowns, %.2g s and %.2g GiB more",
-             100.0 * answer->relative_error,
+             ost_percent(answer->relative_error, share, sizeof share),
              answer->relative_error <= adaption->request ? ", but that is to be well within what is asked for, as "
                                                            "estimates near edges are up to a quarter low"
                                                          : "",
@@ -76,7 +77,7 @@ void ost_adaption_words(const OstAdaption *adaption, char words[OST_LONGEST_ADAP
 
 void ost_adaption_print(const OstAdaption *adaption)
 {
-    char words[OST_LONGEST_ADAPT_WORDS];
+    char words[OST_LONGEST_ADAPT_WORDS], share[24];
     if (ost_rank(adaption->ctx) != 0 || adaption->count == 0)
         return;
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
@@ -86,7 +87,7 @@ void ost_adaption_print(const OstAdaption *adaption)
         printf("                   %5d %10lld %10lld %11d", level->order, (long long)level->tets,
                (long long)level->unknowns, level->iterations);
         if (level->error.known)
-            printf(" %14.2g %%", 100.0 * level->relative_error);
+            printf(" %16s", ost_percent(level->relative_error, share, sizeof share));
         else
             printf(" %16s", "not known");
         printf(" %8.3f\n", level->seconds);

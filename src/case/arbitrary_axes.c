@@ -108,6 +108,7 @@ static void warn(const OstCase *c, const OstCaseMaterial *material, const List *
 {
     static const char *const kinds[] = {
         [OST_AXES_FIXED] = "fixed", [OST_AXES_GRADIENT] = "gradient", [OST_AXES_FIELD] = "field"};
+    static const char *const shear[] = {"S23", "S31", "S12 (plane)"}; /* across each axis */
     const int axis = material->axes.single, one = axis == 1 ? 2 : 1, other = axis == 3 ? 2 : 3;
     const int low = axis < one ? axis : one, high = axis + one - low;
     char stated[160], second[80] = "axes: {curve: {points: ..., up: ..., order: [radial, tangential, axial]}}";
@@ -123,8 +124,8 @@ static void warn(const OstCase *c, const OstCaseMaterial *material, const List *
     if (criteria->used > 0)
         ost_warn(c->ctx,
                  "%s:%d: %s, on which these depend with its strengths: %s; state a second axis, as in %s, or go by "
-                 "tsai_wu_load_factor with S%d%d = %.5g",
-                 c->path, material->axes_place.line, stated, criteria->text, second, one, other,
+                 "tsai_wu_load_factor with %s = %.5g",
+                 c->path, material->axes_place.line, stated, criteria->text, second, shear[axis - 1],
                  ost_criterion_even_shear(&material->material.strength, OST_TSAI_WU, axis - 1));
 }
 

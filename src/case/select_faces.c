@@ -57,8 +57,9 @@ static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, 
             return ost_select_raise(
                 c, selection,
                 "face (%lld, %lld, %lld) of boundary '%s' is not on the body's surface, so it has no "
-                "outside; loads by area act on the surface (total_force with share: vertices acts "
-                "anywhere)",
+                "outside; loads by area and ties act on the surface (total_force with share: vertices acts anywhere, "
+                "and "
+                "parts that 'merge' has joined need no tie)",
                 (long long)label[nodes[0]], (long long)label[nodes[1]], (long long)label[nodes[2]], boundary->name);
         faces->selected[face] = 1;
     }

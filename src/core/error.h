@@ -3,6 +3,7 @@
 #define ORTHOSTAT_CORE_ERROR_H
 
 #include "orthostat/context.h"
+#include <stdio.h>
 
 /* Local. Records the failure's text and origin in the context and returns `status`. */
 OstStatus ost_error_set(OstContext *ctx, OstStatus status, const char *file, int line, const char *format, ...)
@@ -40,5 +41,12 @@ void ost_append(char *text, size_t size, const char *format, ...) __attribute__(
 /* Turns MPI's return value into a status. */
 OstStatus ost_mpi_check(OstContext *ctx, int mpi_result, const char *call, const char *file, int line);
 #define OST_MPI(ctx, call) ost_mpi_check((ctx), (call), #call, __FILE__, __LINE__)
+
+/* Local. "4 %" of 0.04, for messages: two digits, and whole per cent from 100 on. Returns `text`. */
+static inline const char *ost_percent(double share, char *text, size_t size)
+{
+    snprintf(text, size, share >= 0.995 ? "%.0f %%" : "%.2g %%", 100.0 * share);
+    return text;
+}
 
 #endif

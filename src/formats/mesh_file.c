@@ -187,6 +187,8 @@ static OstStatus read_field_alone(OstContext *ctx, const OstMeshFormat *format, 
         status = ost_tet_field_raise(ctx, path, name, &field);
     OST_THEN(ost_tet_field_of_nodes(chunk, use, &field));
     OST_THEN(ost_tet_field_add(chunk, path, name, &field));
+    if (status == OST_SUCCESS)
+        ost_tet_field_warn(ctx, path, name, field.misses);
     OST_FREE(field.values);
     return status;
 }

@@ -54,16 +54,20 @@ static double tsai_wu_square(const OstStrength *strength, int i)
     return 1.0 / (strength->tension[i] * strength->compression[i]);
 }
 
+/* Of the squares of which what a pressure alone leaves is the difference. */
+static const double cancelled = 1e-14;
+
 static double tsai_wu(const OstStrength *strength, const double stress[6])
 {
-    double a = shear_part(strength, stress), b = 0.0;
+    double a = shear_part(strength, stress), b = 0.0, squares = a;
     for (int i = 0; i < 3; i++) {
         const int j = next(i);
         const double f_ii = tsai_wu_square(strength, i), f_jj = tsai_wu_square(strength, j);
         a += f_ii * square(stress[i]) + 2.0 * strength->interaction[i] * sqrt(f_ii * f_jj) * stress[i] * stress[j];
+        squares += f_ii * square(stress[i]);
         b += (1.0 / strength->tension[i] - 1.0 / strength->compression[i]) * stress[i];
     }
-    return root(a, b);
+    return root(fabs(a) > cancelled * squares ? a : 0.0, b);
 }
 
 /* Hill's criterion knows one strength of an axis: the smaller one. (By the sign of the stress, it would jump where a

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "output/summary.h"
+#include "core/error.h"
 
 #include "output/probe_files.h"
 #include "solve/buckling/buckling.h"
@@ -36,7 +37,9 @@ static void print_strategies(const OstSolveReport *report)
 /* "4 %", to two digits; 1e-8 where it is less than a thousandth of that. */
 static const char *percent(double share, char text[24])
 {
-    snprintf(text, 24, share > 1e-5 ? "%.2g %%" : "%.0e", share > 1e-5 ? 100.0 * share : share);
+    if (share > 1e-5)
+        return ost_percent(share, text, 24);
+    snprintf(text, 24, "%.0e", share);
     return text;
 }
 
@@ -147,7 +150,9 @@ static void describe_error(double error, char text[32])
 /* "120 % stiffer" */
 static void describe_stiffening(double stiffening, char text[48])
 {
-    snprintf(text, 48, "%.2g %% %s", 100.0 * fabs(stiffening), stiffening < 0.0 ? "softer" : "stiffer");
+    char share[24];
+    snprintf(text, 48, "%s %s", ost_percent(fabs(stiffening), share, sizeof share),
+             stiffening < 0.0 ? "softer" : "stiffer");
 }
 
 int ost_linearity_warning(const OstChecks *checks, int linear_alone, char text[OST_LONGEST_WARNING])

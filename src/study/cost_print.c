@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "core/error.h"
 #include "study/cost.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ static void percent(double share, char *text, size_t size)
     if (hundredths != 0.0 && (hundredths < 1e-3 || hundredths >= 1e4))
         snprintf(text, size, "%.0e %%", hundredths);
     else
-        snprintf(text, size, hundredths >= 99.5 ? "%.0f %%" : "%.2g %%", hundredths);
+        ost_percent(share, text, size);
 }
 
 /* An error smaller than its estimate is printed as an upper bound. */

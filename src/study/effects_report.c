@@ -22,7 +22,7 @@ static void percent(double share, char *text, size_t size)
     else if (share != 0.0 && share < 1e-6)
         snprintf(text, size, "%.0e %%", 100.0 * share);
     else
-        snprintf(text, size, share >= 0.995 ? "%.0f %%" : "%.2g %%", 100.0 * share);
+        ost_percent(share, text, size);
 }
 
 static void print_percent(double share)

@@ -117,13 +117,15 @@ static double relative(double value, double base, double scale)
 /* The energy of a run becomes its change. A quantity that is nearly zero is compared with the size of its kind. */
 static void compare(const OstEffectStudy *study, OstEffectRun *run)
 {
-    static const double negligible = 1e-6; /* of the size of its kind: a zero by symmetry */
+    static const double negligible =
+        1e-6; /* of the size of its kind: a zero by symmetry, as is one of its error's size */
     const OstEffectRun *base = &study->base;
     const int no_energy = fabs(base->energy) <= negligible * base->energy_scale;
     run->energy = relative(run->energy, base->energy, no_energy ? base->energy_scale : 0.0);
     for (int w = 0; w < study->c->watch_count; w++) {
         const OstWatched *watched = &base->watched[w];
-        const int is_zero = fabs(watched->value) <= negligible * watched->scale;
+        const double error = isnan(watched->error) ? 0.0 : fabs(watched->error);
+        const int is_zero = fabs(watched->value) <= fmax(negligible * watched->scale, error);
         run->watch[w] = relative(run->watched[w].value, watched->value, is_zero ? watched->scale : 0.0);
     }
 }

@@ -429,13 +429,14 @@ void ost_watch_print(const OstWatchedValue *values, int count)
 {
     for (int w = 0; w < count; w++) {
         const double expected = values[w].expected, error = fabs(values[w].error);
+        char share[24];
         printf("%-22s %.10g", values[w].name, values[w].value);
         if (values[w].exact)
             printf(", %s", values[w].exact);
         else if (!isnan(error))
             printf(" +- %.2g", error);
         if (!values[w].exact && error <= fabs(values[w].value) && values[w].value != 0.0)
-            printf(" (%.2g %%)", 100.0 * error / fabs(values[w].value));
+            printf(" (%s)", ost_percent(error / fabs(values[w].value), share, sizeof share));
         if (values[w].why)
             printf(", error not known: %s", values[w].why);
         if (values[w].placed)
@@ -443,7 +444,8 @@ void ost_watch_print(const OstWatchedValue *values, int count)
         if (values[w].by_adjoint)
             printf(", with its error added %.10g", values[w].value + values[w].error);
         if (!isnan(expected) && expected != 0.0)
-            printf(", expected %.10g: %.2g %% off", expected, 100.0 * fabs(values[w].value / expected - 1.0));
+            printf(", expected %.10g: %s off", expected,
+                   ost_percent(fabs(values[w].value / expected - 1.0), share, sizeof share));
         puts("");
     }
 }

@@ -110,7 +110,7 @@ def what_lies_anywhere_is_told():
     strong = MUSCLE + ", fibre: [1, 0, 0], strengths: {tension: {plane: 3, axis: 80}, shear: {plane: %s, axis: 8}}"
     said = warned(strong % 2, "")
     check(len(said) == 1 and "tsai_wu_load_factor, hill_load_factor, maximum_stress_load_factor;" in said[0] and
-          "S12 = 1.7321" in said[0], f"{said}")
+          "S12 (plane) = 1.7321" in said[0], f"{said}")
     said = warned(strong % 1.73, "")
     check(len(said) == 1 and "strengths: hill_load_factor, maximum_stress_load_factor;" in said[0], f"{said}")
     check(not warned(strong % 1.73, "output: {fields: [tsai_wu_load_factor]}"), "Tsai and Wu's alone")
@@ -281,6 +281,10 @@ along = answer(text(MUSCLE + ", fibre: {field: displacement}", "file: bent.vtu",
 for name, ranks in (("bent-1.vtkhdf", 1), ("bent-3.vtkhdf", 1), ("bent-1.vtkhdf", 4), ("bent-3.vtkhdf", 2)):
     same(answer(text(MUSCLE + ", fibre: {field: displacement}", "file: " + name, 2), ranks), along,
          f"displacements of {name} as fibres on {ranks} ranks")
+lacking = [json.loads(call(text(MUSCLE + ", fibre: {field: displacement}", "file: " + name, 2), ranks=ranks).output)["warnings"]
+           for name, ranks in fewer([("bent.vtu", 1), ("bent-3.vtkhdf", 2)])]
+told = [warning.split(": ", 1)[1] for warnings in lacking for warning in warnings if "zero at vertices of" in warning]
+check(len(told) == len(lacking) and len(set(told)) == 1, f"held vertices have no direction: {told}")
 refused(text(MUSCLE + ", fibre: {field: nowhere}", "file: bent-3.vtkhdf"), "there is no field 'nowhere' on the elements, or on the nodes; there is 'region', 'tet', 'displacement', 'vertex'")
 refused(text(MUSCLE + ", fibre: {field: modulus}", TWO_CUBES), "it has 1 numbers a tet, expected 3")
 refused(text("youngs_modulus: {field: fibre}, poissons_ratio: 0.3", TWO_CUBES), "it has 3 numbers a tet, expected 1")

@@ -31,6 +31,7 @@ OstStatus ost_mesh_file_read_field(OstContext *ctx, const char *path, const char
 typedef struct OstFileField {
     int found, on_nodes, width;
     int at_vertices;  /* once it is one of tets: are the values those of its vertices? */
+    double misses;    /* tets with a direction that is zero at a vertex */
     double *values;   /* tets or nodes × width; or tets × 4 × width */
     char others[256]; /* names of fields that were not asked for, as far as there is room */
 } OstFileField;
@@ -41,6 +42,9 @@ OstStatus ost_tet_field_raise(OstContext *ctx, const char *path, const char *nam
 
 /* Local. A field on nodes becomes one on tets: the mean of their vertices, or each. */
 OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFileField *field);
+
+/* Local; rank 0 warns. `misses`: of all ranks. */
+void ost_tet_field_warn(OstContext *ctx, const char *path, const char *name, double misses);
 
 /* Local. Refuses a field of another number of numbers a tet; adds the columns of one to a chunk. */
 OstStatus ost_tet_field_check(OstContext *ctx, const char *path, const char *name, int width);

@@ -53,19 +53,34 @@ OstStatus ost_tet_field_add(OstMeshChunk *chunk, const char *path, const char *n
     return OST_SUCCESS;
 }
 
-/* What a field has at the vertices of a tet. Directions are turned as the first vertex's: a fibre has no sense. */
-static void take_vertices(const OstFileField *field, const OstGlobal *nodes, unsigned use, double *at_vertices)
+static double dot(size_t width, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < width; k++)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* What a field has at the vertices of a tet. Directions are turned as the first one that there is: a fibre has no
+ * sense. Returns whether a direction is missing. */
+static int take_vertices(const OstFileField *field, const OstGlobal *nodes, unsigned use, double *at_vertices)
 {
     const size_t width = (size_t)field->width;
-    const double *first = field->values + width * (size_t)nodes[0];
+    const double *first = NULL;
+    int misses = 0;
     for (int v = 0; v < 4; v++) {
         const double *value = field->values + width * (size_t)nodes[v];
-        double along = 0.0;
-        for (size_t k = 0; k < width && (use & OST_FIELD_OF_DIRECTIONS) != 0; k++)
-            along += value[k] * first[k];
+        double sense = 1.0;
+        if ((use & OST_FIELD_OF_DIRECTIONS) != 0) {
+            const int is_zero = dot(width, value, value) == 0.0;
+            misses |= is_zero;
+            first = first || is_zero ? first : value;
+            sense = first && dot(width, value, first) < 0.0 ? -1.0 : 1.0;
+        }
         for (size_t k = 0; k < width; k++)
-            at_vertices[width * (size_t)v + k] = along < 0.0 ? -value[k] : value[k];
+            at_vertices[width * (size_t)v + k] = sense * value[k];
     }
+    return misses;
 }
 
 OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFileField *field)
@@ -76,7 +91,7 @@ OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFil
         return OST_SUCCESS;
     OST_TRY(OST_NEW(chunk->ctx, &of_tets, (size_t)chunk->tet_count * kept));
     for (size_t t = 0; t < (size_t)chunk->tet_count; t++) {
-        take_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use, at_vertices);
+        field->misses += take_vertices(field, chunk->tet_nodes + t * (size_t)chunk->nodes_per_tet, use, at_vertices);
         for (size_t k = 0; k < kept && kept > width; k++)
             of_tets[kept * t + k] = at_vertices[k];
         for (size_t k = 0; k < 4 * width && kept == width; k++)
@@ -86,4 +101,14 @@ OstStatus ost_tet_field_of_nodes(const OstMeshChunk *chunk, unsigned use, OstFil
     field->values = of_tets;
     field->at_vertices = kept > width;
     return OST_SUCCESS;
+}
+
+void ost_tet_field_warn(OstContext *ctx, const char *path, const char *name, double misses)
+{
+    if (misses > 0.0)
+        ost_warn(
+            ctx,
+            "%s: the field '%s' is zero at vertices of %.0f tet%s, as where data is missing: the other vertices of a "
+            "tet give its direction",
+            path, name, misses, misses > 1.0 ? "s" : "");
 }

@@ -443,7 +443,7 @@ void ost_vtkhdf_note_fields(const OstHdf5 *h5, OstFileField *field)
     }
 }
 
-static OstStatus read_field(Reader *reader, const char *word, unsigned use, OstMeshChunk *chunk)
+static OstStatus read_field(Reader *reader, const char *word, unsigned use, OstMeshChunk *chunk, double *misses)
 {
     const OstHdf5 *h5 = &reader->h5;
     OstGlobal rows = 0;
@@ -468,23 +468,28 @@ static OstStatus read_field(Reader *reader, const char *word, unsigned use, OstM
     OST_THEN(ost_tet_field_of_nodes(reader->chunk, use, &field));
     OST_THEN(ost_tet_field_add(chunk, h5->path, word, &field));
     OST_FREE(field.values);
+    *misses = field.misses;
     return status;
 }
 
 OstStatus ost_vtkhdf_read_field(OstContext *ctx, const char *path, const char *field, unsigned use, OstMeshChunk *chunk)
 {
     Reader reader = {.h5.file = H5I_INVALID_HID};
+    double misses = 0.0;
     OST_TRY(ost_agree(ctx, ost_hdf5_dry_run(ctx, path, try_field, field)));
     OstStatus status = OST_NEW(ctx, &reader.chunk, 1);
     OST_THEN(ost_hdf5_open(ctx, path, &reader.h5));
     if (status == OST_SUCCESS) {
         reader.chunk->ctx = ctx;
         reader.chunk->nodes_per_tet = chunk->nodes_per_tet;
-        status = read_field(&reader, field, use, chunk);
+        status = read_field(&reader, field, use, chunk, &misses);
     }
     ost_hdf5_close(&reader.h5);
     ost_file_points_free(&reader.points);
     OST_FREE(reader.tet_start);
     ost_chunk_destroy(&reader.chunk);
-    return ost_agree(ctx, status);
+    OST_TRY(ost_agree(ctx, status));
+    OST_TRY(ost_sum(ctx, 1, &misses));
+    ost_tet_field_warn(ctx, path, field, misses);
+    return OST_SUCCESS;
 }
