@@ -100,6 +100,8 @@ static OstStatus adjoint_load(Search *search, const OstInterest *interest, doubl
         ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
         for (size_t i = 0; i < numbers; i++)
             steps->force[i] *= -stiffness->unit;
+        for (size_t i = 0; i < numbers && interest->load; i++)
+            steps->force[i] += interest->load[i];
     }
     return ost_steps_take_rows(steps, steps->q.rows);
 }
