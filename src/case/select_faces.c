@@ -460,6 +460,14 @@ static OstStatus find_share(OstContext *ctx, const Bearers *by, OstBearing *shar
     return OST_SUCCESS;
 }
 
+static int any_others(const Bearers *by)
+{
+    int some = 0;
+    for (int i = 0; i < 9; i += 4)
+        some |= by->constrained[1][i] != 0.0 || by->springs[1][i] != 0.0;
+    return some;
+}
+
 static OstStatus take_shares(const Sharing *of, OstLocal count, const OstLocal *nodes, OstBearing *shares)
 {
     static const OstBearing whole = {.own = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
@@ -469,7 +477,7 @@ static OstStatus take_shares(const Sharing *of, OstLocal count, const OstLocal *
         shares[k] = whole;
         shares[k].is_passed = !(bits & BEARS_SPRINGS) && (place < 0 || bits & LINKS_OWN);
         shares[k].is_unknown = shares[k].is_passed && place >= 0 && bits & LINKS_OTHERS;
-        if (place >= 0)
+        if (place >= 0 && any_others(&of->bearers[place]))
             OST_TRY(find_share(of->faces.mesh->ctx, &of->bearers[place], &shares[k]));
     }
     return OST_SUCCESS;

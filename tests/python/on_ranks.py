@@ -65,6 +65,11 @@ def a_uniform_stretch_has_the_formula(folder):
     assert changed.title == "x"
     close(changed.solve().watch["end"].value, 0.004, 1e-6)
     raises(orthostat.InvalidInput, "did you mean 'title'", orthostat.Case, BAR, settings={"titel": "x"})
+    read = {**BAR, "large_rotation": False, "constraints": [{True: item["on"], **{k: v for k, v in item.items() if k != "on"}}
+                                                            for item in BAR["constraints"]],
+            "loads": [{True: {"boundary": "xmax"}, "total_force": ["2e-2", "-.0", "0."]}], "accuracy": {"relative_residual": "1e-8"}}
+    close(orthostat.solve(read).watch["end"].value, 0.008, 1e-6)  # as PyYAML reads `on` and such numbers
+    assert orthostat.Case({**BAR, "title": "1.10"}).title == "1.10"
     loads = [{"on": {"boundary": "xmax"}, "total_force": [0, float("nan"), 0]}]
     raises(orthostat.InvalidInput, "NaN', expected a finite number", orthostat.Case, {**BAR, "loads": loads})
     result.write(os.path.join(folder, "bar.vtkhdf"), fields=["displacement", "stress"])
@@ -309,6 +314,16 @@ def constraints_may_be_given_along_directions(folder):
     close(mesh.gather_nodes(answer.reaction)[mesh.gather_nodes(x)[:, 0] == 2].sum(axis=0), [2, 0, 0], 1e-6)
 
 
+def incompressible_bodies_have_the_mixed_form(folder):
+    points, tets, _ = cubes(2)
+    mesh = orthostat.Mesh(orthostat.MeshArrays(points, tets)).quadratic()
+    x, rubber = mesh.points, orthostat.Material(2.0, 0.5)
+    pull = [(x[:, k] == 0, 0.0, np.eye(3)[k]) for k in range(3)] + [(x[:, 0] == 2, 0.02, [1, 0, 0])]
+    raises(orthostat.InvalidInput, "mixed=True", orthostat.Problem, mesh, rubber, constraints=pull)
+    answer = orthostat.Problem(mesh, rubber, constraints=pull, mixed=True).analysis().solve()
+    close(answer.displacement, x * [0.01, -0.005, -0.005], 1e-6)
+
+
 def poses_turn_rigidly_without_energy(folder):
     points, tets, _ = cubes(2)
     mesh = orthostat.Mesh(orthostat.MeshArrays(points, tets))
@@ -432,7 +447,7 @@ def main():
     for test in (a_uniform_stretch_has_the_formula, arrays_are_views_that_keep_their_owner, nothing_is_left_when_all_is_dropped,
                  many_loads_share_one_hierarchy, load_cases_share_a_stiffness, fields_are_those_of_the_file, failures_are_exceptions_with_the_librarys_words,
                  a_mesh_of_arrays_serves_cases_and_problems, constraints_may_be_given_along_directions,
-                 poses_turn_rigidly_without_energy, axes_at_vertices_vary_within_quadratic_tets, paths_and_accuracies_are_followed, sweeps_combine_values, communicators_are_handed_over,
+                 incompressible_bodies_have_the_mixed_form, poses_turn_rigidly_without_energy, axes_at_vertices_vary_within_quadratic_tets, paths_and_accuracies_are_followed, sweeps_combine_values, communicators_are_handed_over,
                  materials_have_their_matrices):
         try:
             test(folder)
