@@ -210,8 +210,8 @@ static void buckling(const OstEffectFacts *f, OstEffectState *state)
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (has_links(f))
-        off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
+    if (f->rigid_faces > 0)
+        off(state, "with rigid faces multigrid begins with the nodes themselves");
     else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on their linear tets, or on their vertices");

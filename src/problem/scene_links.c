@@ -160,6 +160,31 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
 
 /* --- tied faces --- */
 
+static double largest_of(const double weight[9])
+{
+    double largest = 0.0;
+    for (int i = 0; i < 9; i++)
+        largest = fmax(largest, fabs(weight[i]));
+    return largest;
+}
+
+/* Each vertex of a quadratic face takes half of what the middles of its sides have. */
+static void add_corners(const OstFacePoint *found, OstLinks *links)
+{
+    enum { CORNERS = 3 };
+    OstGlobal corner[CORNERS];
+    double weight[CORNERS][9];
+    int count = 0;
+    for (int v = 0; v < CORNERS; v++) {
+        for (int i = 0; i < 9; i++)
+            weight[count][i] = found->weight[v][i] +
+                               0.5 * (found->weight[CORNERS + v][i] + found->weight[CORNERS + (v + 2) % CORNERS][i]);
+        if (largest_of(weight[count]) >= no_weight)
+            corner[count++] = found->number[v];
+    }
+    ost_links_add_corners(links, count, corner, (const double(*)[9])weight);
+}
+
 /* Counts the node in *follows where it follows a face. */
 static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, double within, OstLocal node,
                           OstLinks *links, OstGlobal *follows)
@@ -179,10 +204,7 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
     for (int k = 0; k < found.count; k++) {
         if (found.number[k] == scene->mesh->node_number[node]) /* on both sides already */
             return OST_SUCCESS;
-        double largest = 0.0;
-        for (int i = 0; i < 9; i++)
-            largest = fmax(largest, fabs(found.weight[k][i]));
-        if (largest < no_weight)
+        if (largest_of(found.weight[k]) < no_weight)
             continue;
         leader[leaders].number = found.number[k];
         memcpy(leader[leaders++].weight, found.weight[k], sizeof found.weight[k]);
@@ -196,7 +218,10 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
             "vertex %lld at (%g, %g, %g) is %.3g away from the faces that it is tied to; across a gap a tie "
             "turns by linear theory alone: let the faces meet, or say large_rotation: off",
             (long long)ost_mesh_node_number(scene->mesh, node), x[0], x[1], x[2], found.distance);
-    return ost_links_add(links, node, leaders, leader, x, nothing);
+    OST_TRY(ost_links_add(links, node, leaders, leader, x, nothing));
+    if (found.count == OST_MOST_LEADERS)
+        add_corners(&found, links);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint, OstLinks *links)
@@ -264,7 +289,10 @@ static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *c
     ost_apply3(strain, away, offset);
     OstLeader leader = {.number = leads->number};
     memcpy(leader.weight, identity, sizeof identity);
-    return ost_links_add(links, node, 1, &leader, leads->at, offset);
+    OST_TRY(ost_links_add(links, node, 1, &leader, leads->at, offset));
+    if (mesh->nodes_per_tet == 10)
+        ost_links_add_corners(links, 1, &leader.number, (const double(*)[9]) & leader.weight);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)

@@ -73,6 +73,14 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
     return OST_SUCCESS;
 }
 
+void ost_links_add_corners(OstLinks *links, int count, const OstGlobal *corner, const double (*weight)[9])
+{
+    OstLink *link = &links->link[links->count - 1];
+    link->corners = count;
+    memcpy(link->corner, corner, (size_t)count * sizeof *corner);
+    memcpy(link->corner_weight, weight, (size_t)count * sizeof *weight);
+}
+
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
 {
     OST_TRY(OST_RESIZE(links->ctx, &links->face, links->face_count + 1));
@@ -159,13 +167,23 @@ static int is_mine(const OstLinks *links, OstGlobal number)
 static OstStatus list_far_leaders(const OstLinks *links, OstGlobal **number, OstLocal *count)
 {
     *count = 0;
-    OST_TRY(OST_NEW(links->ctx, number, OST_MOST_LEADERS * (size_t)links->all));
-    for (OstLocal i = 0; i < links->all; i++)
+    OST_TRY(OST_NEW(links->ctx, number, (OST_MOST_LEADERS + OST_MOST_CORNERS) * (size_t)links->all));
+    for (OstLocal i = 0; i < links->all; i++) {
         for (int k = 0; k < links->link[i].count; k++)
             if (!is_mine(links, links->link[i].leader[k].number))
                 (*number)[(*count)++] = links->link[i].leader[k].number;
+        for (int k = 0; k < links->link[i].corners; k++)
+            if (!is_mine(links, links->link[i].corner[k]))
+                (*number)[(*count)++] = links->link[i].corner[k];
+    }
     *count = ost_numbers_sort(*count, *number);
     return OST_SUCCESS;
+}
+
+static OstLocal slot_of_number(const OstLinks *links, OstLocal count, const OstGlobal *far, OstGlobal number)
+{
+    return is_mine(links, number) ? (OstLocal)(number - links->mesh->first_node)
+                                  : links->mesh->owned_nodes + ost_numbers_find(count, far, number);
 }
 
 static OstStatus connect_leaders(OstLinks *links)
@@ -177,12 +195,13 @@ static OstStatus connect_leaders(OstLinks *links)
     OST_THEN(ost_agree(links->ctx,
                        ost_halo_create(links->ctx, mesh->owned_nodes, mesh->first_node, count, far, &links->halo)));
     links->slots = mesh->owned_nodes + count;
-    for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++)
-        for (int k = 0; k < links->link[i].count; k++) {
-            const OstGlobal number = links->link[i].leader[k].number;
-            links->link[i].slot[k] = is_mine(links, number) ? (OstLocal)(number - mesh->first_node)
-                                                            : mesh->owned_nodes + ost_numbers_find(count, far, number);
-        }
+    for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++) {
+        OstLink *link = &links->link[i];
+        for (int k = 0; k < link->count; k++)
+            link->slot[k] = slot_of_number(links, count, far, link->leader[k].number);
+        for (int k = 0; k < link->corners; k++)
+            link->corner_slot[k] = slot_of_number(links, count, far, link->corner[k]);
+    }
     OST_FREE(far);
     return status;
 }

@@ -10,7 +10,7 @@
  *
  * A rigid face has six unknowns, which take the rows of two of its nodes, the carriers: the point's displacement, and
  * its rotation times a length. */
-enum { OST_MOST_LEADERS = 6 };
+enum { OST_MOST_LEADERS = 6, OST_MOST_CORNERS = 3 };
 
 typedef struct OstLeader {
     OstGlobal number; /* of the node (mesh->node_number) */
@@ -21,10 +21,14 @@ typedef struct OstLink {
     OstLocal node;
     int count;
     OstLeader leader[OST_MOST_LEADERS];
-    OstLocal slot[OST_MOST_LEADERS]; /* where the leader is in the halo's arrays */
-    double place[3];                 /* where the leaders' mean is; the node itself, of a rigid face */
-    int line;                        /* of the case, which states it */
-    int between_meshes;              /* a tie: the sides' meshes differ */
+    OstLocal slot[OST_MOST_LEADERS];    /* where the leader is in the halo's arrays */
+    double place[3];                    /* where the leaders' mean is; the node itself, of a rigid face */
+    int line;                           /* of the case, which states it */
+    int between_meshes;                 /* a tie: the sides' meshes differ */
+    int corners;                        /* of a vertex among quadratic tets, 0 if not known: the vertices that it */
+    OstGlobal corner[OST_MOST_CORNERS]; /* follows where the tets are taken for linear ones, by these weights */
+    double corner_weight[OST_MOST_CORNERS][9];
+    OstLocal corner_slot[OST_MOST_CORNERS];
 } OstLink;
 
 /* A rigid face: its point, and its motion there, prescribed or free. */
@@ -72,6 +76,14 @@ void ost_links_destroy(OstLinks **links);
  * if it follows others already. */
 OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLeader *leader, const double place[3],
                         const double offset[3]);
+
+/* Local. How the node that was added last follows in the linear mesh. */
+void ost_links_add_corners(OstLinks *links, int count, const OstGlobal *corner, const double (*weight)[9]);
+
+/* Collective. The links of a quadratic mesh's vertices, on the linear mesh of ost_mesh_linear; not complete. NULL where
+ * they do not follow vertices alone that follow nobody. */
+OstStatus ost_links_on_vertices(const OstLinks *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
+                                OstLinks **links);
 
 /* Local. Notes a rigid face; its carriers' rows are kept. */
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face);
