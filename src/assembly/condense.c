@@ -24,6 +24,7 @@ typedef struct Entry {
 typedef struct Condensation {
     OstSystem *system;
     const OstLinks *links;
+    const double *turning; /* of rigid faces, or NULL */
     OstRowNumbers rows;
     OstLocal count, capacity;
     Entry *entry;
@@ -250,6 +251,22 @@ static void stiffen_prescribed(double *block)
             block[4 * i] = most;
 }
 
+/* Adds what forces at the arms of rigid faces do to the rows of their rotations. */
+static void add_turning(const Condensation *c)
+{
+    const OstMesh *mesh = c->system->mesh;
+    OstBlockMatrix *matrix = c->system->matrix;
+    for (int f = 0; c->turning && f < c->links->face_count; f++) {
+        const OstRigidFace *face = &c->links->face[f];
+        const OstGlobal node = face->carrier[1] - mesh->first_node;
+        if (face->carrier[1] < 0 || node < 0 || node >= mesh->owned_nodes)
+            continue;
+        double *block = matrix->value + 9 * (size_t)matrix->diagonal[c->system->row_of_node[node]];
+        for (int k = 0; k < 9; k++)
+            block[k] += c->turning[9 * f + k] / (face->length * face->length);
+    }
+}
+
 /* The most blocks that a row may have before those of one column are added, and of all rows. */
 static void count_blocks(const Condensation *c, OstLocal *most, OstLocal *all)
 {
@@ -351,12 +368,14 @@ static OstStatus condense(Condensation *c)
     const int is_new = !matrix->row_start;
     if (is_new)
         OST_TRY(make_halo(c));
-    return ost_agree(ctx, make_rows(c, is_new));
+    OST_TRY(ost_agree(ctx, make_rows(c, is_new)));
+    add_turning(c);
+    return OST_SUCCESS;
 }
 
-OstStatus ost_system_condense(OstSystem *system)
+OstStatus ost_system_condense(OstSystem *system, const double *turning)
 {
-    Condensation c = {.system = system, .links = system->supports->links};
+    Condensation c = {.system = system, .links = system->supports->links, .turning = turning};
     ost_ledger_enter(system->ctx, OST_LEDGER_SUPPORTS);
     const OstStatus status = condense(&c);
     ost_row_numbers_clear(&c.rows);

@@ -87,28 +87,21 @@ static OstStatus check_extent(const OstMesh *mesh, OstLocal count, const OstLoca
 
 /* W of one node for the point's displacement, and for its rotation times `length`; what is prescribed goes to the
  * offset. */
-static void make_weights(const OstConstraint *constraint, const double arm[3], double length, double factor,
-                         double weights[2][9], double offset[3])
+static void make_weights(const OstRigidFace *face, const double arm[3], double weights[2][9], double offset[3])
 {
-    const double turned[3] = {factor * constraint->rotation[0], factor * constraint->rotation[1],
-                              factor * constraint->rotation[2]};
-    ost_cross3(turned, arm, offset);
+    ost_cross3(face->given + 3, arm, offset);
     memset(weights, 0, 2 * sizeof *weights);
+    ost_rigid_face_weight(face, arm, weights[1]);
     for (int k = 0; k < 3; k++) {
-        const double axis[3] = {k == 0, k == 1, k == 2};
-        double moved[3];
-        ost_cross3(axis, arm, moved);
-        offset[k] += factor * constraint->displacement[k];
-        weights[0][4 * k] = constraint->constrained[k] ? 0.0 : 1.0;
-        for (int i = 0; i < 3; i++)
-            weights[1][3 * i + k] = constraint->turn_constrained[k] ? 0.0 : moved[i] / length;
+        offset[k] += face->given[k];
+        weights[0][4 * k] = face->constrained[k] ? 0.0 : 1.0;
     }
 }
 
-static OstStatus link_face(const OstConstraint *constraint, const OstRigidFace *face, double factor, OstLocal count,
-                           const OstLocal *nodes, OstLinks *links)
+static OstStatus link_face(const OstRigidFace *face, OstLocal count, const OstLocal *nodes, OstLinks *links)
 {
     const OstMesh *mesh = links->mesh;
+    links->of_face = links->face_count;
     for (OstLocal i = 0; i < count; i++) {
         const double *x = mesh->coordinates + 3 * (size_t)nodes[i];
         const double arm[3] = {x[0] - face->point[0], x[1] - face->point[1], x[2] - face->point[2]};
@@ -117,7 +110,7 @@ static OstStatus link_face(const OstConstraint *constraint, const OstRigidFace *
         int leaders = 0;
         if (nodes[i] >= mesh->owned_nodes)
             continue;
-        make_weights(constraint, arm, face->length, factor, weights, offset);
+        make_weights(face, arm, weights, offset);
         for (int k = 0; k < 2; k++) {
             if (face->carrier[k] < 0)
                 continue;
@@ -143,6 +136,10 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
     memcpy(face.point, constraint->point, sizeof face.point);
     memcpy(face.constrained, constraint->constrained, sizeof constraint->constrained);
     memcpy(face.constrained + 3, constraint->turn_constrained, sizeof constraint->turn_constrained);
+    for (int k = 0; k < 3; k++) {
+        face.given[k] = factor * constraint->displacement[k];
+        face.given[3 + k] = factor * constraint->rotation[k];
+    }
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
     OstStatus status = check_extent(scene->mesh, count, nodes);
     OST_THEN(find_carriers(scene->mesh, count, nodes, face.point, lowest, &face.length));
@@ -150,8 +147,9 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
         face.first = lowest[0];
         face.carrier[0] = all_of(constraint->constrained) ? -1 : lowest[0];
         face.carrier[1] = all_of(constraint->turn_constrained) ? -1 : lowest[1];
-        status = link_face(constraint, &face, factor, count, nodes, links);
+        status = link_face(&face, count, nodes, links);
         OST_THEN(ost_links_add_face(links, &face));
+        links->of_face = -1;
         status = ost_agree(scene->ctx, status);
     }
     OST_FREE(nodes);

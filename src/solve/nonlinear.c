@@ -18,6 +18,7 @@
 static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
 {
     ost_problem_take_formulation(analysis->problem, OST_FORMULATION_LINEAR);
+    OST_TRY(ost_problem_turn(analysis->problem, NULL));
     if (analysis->work && !analysis->problem->filled) /* an earlier solve has filled the matrix elsewhere */
         ost_linear_strategy.release(analysis);
     return ost_linear_strategy.prepare(analysis, before);

@@ -18,6 +18,7 @@ OstStatus ost_links_create(const OstMesh *mesh, OstLinks **links)
     OST_TRY(OST_NEW(ctx, links, 1));
     (*links)->ctx = ctx;
     (*links)->mesh = mesh;
+    (*links)->of_face = -1;
     OstStatus status = OST_NEW(ctx, &(*links)->of_node, mesh->node_count);
     OST_THEN(OST_NEW(ctx, &(*links)->leads, mesh->node_count));
     OST_THEN(OST_NEW(ctx, &(*links)->kept, mesh->owned_nodes));
@@ -65,7 +66,11 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
                          label);
     OST_TRY(make_room(links, links->count + 1));
     OstLink *link = &links->link[links->count];
-    *link = (OstLink){.node = node, .count = count, .line = links->line, .between_meshes = links->between_meshes};
+    *link = (OstLink){.node = node,
+                      .count = count,
+                      .line = links->line,
+                      .between_meshes = links->between_meshes,
+                      .face = links->of_face};
     memcpy(link->leader, leader, (size_t)count * sizeof *leader);
     memcpy(link->place, place, sizeof link->place);
     memcpy(links->offset + 3 * (size_t)node, offset, 3 * sizeof *offset);
@@ -83,6 +88,17 @@ OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
             links->kept[local] = 1;
     }
     return OST_SUCCESS;
+}
+
+void ost_rigid_face_weight(const OstRigidFace *face, const double arm[3], double weight[9])
+{
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {k == 0, k == 1, k == 2};
+        double moved[3];
+        ost_cross3(axis, arm, moved);
+        for (int i = 0; i < 3; i++)
+            weight[3 * i + k] = face->constrained[3 + k] ? 0.0 : moved[i] / face->length;
+    }
 }
 
 /* Numbers the links of ghosts after those of owned nodes, in the order of nodes, as ost_halo_subset needs it. */
@@ -113,13 +129,14 @@ static OstStatus order_links(OstLinks *links, OstLocal *order)
 static OstStatus share_links(OstLinks *links, OstHalo *halo)
 {
     OstLeader *leader = NULL;
-    int *of = NULL; /* how many leaders a link has, and whether it is between meshes */
+    int *of = NULL; /* how many leaders a link has, whether it is between meshes, and its face */
     OstStatus status = OST_NEW(links->ctx, &leader, links->all);
-    OST_THEN(OST_NEW(links->ctx, &of, 2 * (size_t)links->all));
+    OST_THEN(OST_NEW(links->ctx, &of, 3 * (size_t)links->all));
     OST_TRY_DONE(ost_agree(links->ctx, status));
     for (OstLocal i = 0; i < links->count; i++)
-        memcpy(of + 2 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes}, 2 * sizeof *of);
-    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, 2 * sizeof *of, of)));
+        memcpy(of + 3 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes, links->link[i].face},
+               3 * sizeof *of);
+    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, 3 * sizeof *of, of)));
     for (int k = 0; k < OST_MOST_LEADERS; k++) {
         for (OstLocal i = 0; i < links->count; i++)
             leader[i] = links->link[i].leader[k];
@@ -128,8 +145,9 @@ static OstStatus share_links(OstLinks *links, OstHalo *halo)
             links->link[i].leader[k] = leader[i];
     }
     for (OstLocal i = links->count; i < links->all; i++) {
-        links->link[i].count = of[2 * (size_t)i];
-        links->link[i].between_meshes = of[2 * (size_t)i + 1];
+        links->link[i].count = of[3 * (size_t)i];
+        links->link[i].between_meshes = of[3 * (size_t)i + 1];
+        links->link[i].face = of[3 * (size_t)i + 2];
     }
 done:
     OST_FREE(leader, of);

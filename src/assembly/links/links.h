@@ -25,7 +25,13 @@ typedef struct OstLink {
     double place[3];                 /* where the leaders' mean is; the node itself, of a rigid face */
     int line;                        /* of the case, which states it */
     int between_meshes;              /* a tie: the sides' meshes differ */
+    int face;                        /* number of the rigid face that it is a node of; -1: none */
 } OstLink;
+
+/* How far a rigid face has moved: its point's displacement, and the unit quaternion of its rotation. */
+typedef struct OstRigidMotion {
+    double shift[3], turn[4];
+} OstRigidMotion;
 
 /* A rigid face: its point, and its motion there, prescribed or free. */
 typedef struct OstRigidFace {
@@ -33,6 +39,11 @@ typedef struct OstRigidFace {
     OstGlobal first;      /* the lowest of its nodes */
     OstGlobal carrier[2]; /* of the displacement, and of the rotation times `length`; -1: all of it is prescribed */
     int constrained[6];   /* displacement, rotation */
+    double given[6];      /* what is prescribed of them */
+    double middle[3];     /* the mean of its nodes, */
+    double axis[9];       /* the principal axes of their places about it, as rows, the longest first, */
+    double extent[3];     /* and their second moments along these */
+    OstRigidMotion now;   /* that the weights have (rigid_faces.h) */
 } OstRigidFace;
 
 /* A weight on what a leader's support takes: W(I - P). */
@@ -52,6 +63,7 @@ typedef struct OstLinks {
     const char *path;     /* of the case, or NULL */
     int line;             /* where it states the links that are added */
     int between_meshes;   /* are these of a tie? */
+    int of_face;          /* or of which rigid face? -1: none */
     OstLocal *of_node;    /* node_count: the link of a node, or -1 */
     unsigned char *leads; /* node_count: does another follow this one? */
     unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */
@@ -75,6 +87,9 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
 
 /* Local. Notes a rigid face; its carriers' rows are kept. */
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face);
+
+/* Local. The weight of a face's rotation, times its length, at the end of an arm. */
+void ost_rigid_face_weight(const OstRigidFace *face, const double arm[3], double weight[9]);
 
 /* How a node is supported: u = P v + g. */
 typedef struct OstHeld {
