@@ -360,8 +360,8 @@ OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double
     return OST_SUCCESS;
 }
 
-/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. Stress that is
- * not that at u does not fit the forces that rigid faces turn under. */
+/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. Where
+ * rigid faces turn, stress is that at u: with one from `from` on, tets beside them take more iterations. */
 static OstStatus fill(const OstProblem *problem, double t, const double *u, const double *from, int definite)
 {
     const int turns = ost_problem_has_turning(problem);

@@ -47,28 +47,39 @@ static OstStatus find_diagonal(const OstMesh *mesh, double *diagonal)
 
 /* --- rigid faces --- */
 
-/* The two lowest of the selected nodes, over all ranks, and a length of the size of their arms. */
-static OstStatus find_carriers(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const double point[3],
-                               OstGlobal lowest[2], double *length)
+/* The two lowest of the selected nodes, over all ranks. */
+static OstStatus find_carriers(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, OstGlobal lowest[2])
 {
-    OstContext *ctx = mesh->ctx;
-    double sums[2] = {0.0};
     for (int k = 0; k < 2; k++) {
         lowest[k] = INT64_MAX;
         for (OstLocal i = 0; i < count; i++)
             if (nodes[i] < mesh->owned_nodes && mesh->node_number[nodes[i]] < lowest[k] &&
                 (k == 0 || mesh->node_number[nodes[i]] > lowest[0]))
                 lowest[k] = mesh->node_number[nodes[i]];
-        OST_TRY(ost_min_numbers(ctx, 1, &lowest[k]));
+        OST_TRY(ost_min_numbers(mesh->ctx, 1, &lowest[k]));
     }
+    return OST_SUCCESS;
+}
+
+/* The face's point and a length of the size of the arms about it. Where nothing is given of its displacement, its
+ * middle is as good a point, and nodes beside the face move nearly as it does where it turns far in one step. */
+static OstStatus find_point(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, OstRigidFace *face)
+{
+    const int is_given = face->constrained[0] || face->constrained[1] || face->constrained[2];
+    double sums[5] = {0.0};
     for (OstLocal i = 0; i < count; i++)
         for (size_t c = 0; c < 3 && nodes[i] < mesh->owned_nodes; c++) {
-            const double arm = mesh->coordinates[3 * (size_t)nodes[i] + c] - point[c];
-            sums[0] += arm * arm;
-            sums[1] += 1.0 / 3.0;
+            const double arm = mesh->coordinates[3 * (size_t)nodes[i] + c] - face->point[c];
+            sums[c] += arm;
+            sums[3] += arm * arm;
+            sums[4] += 1.0 / 3.0;
         }
-    OST_TRY(ost_sum(ctx, 2, sums));
-    *length = sums[0] > 0.0 ? sqrt(sums[0] / sums[1]) : 1.0;
+    OST_TRY(ost_sum(mesh->ctx, 5, sums));
+    for (int c = 0; c < 3 && !is_given; c++) {
+        face->point[c] += sums[c] / sums[4];
+        sums[3] -= sums[c] * sums[c] / sums[4];
+    }
+    face->length = sums[3] > 0.0 ? sqrt(sums[3] / sums[4]) : 1.0;
     return OST_SUCCESS;
 }
 
@@ -142,7 +153,8 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
     }
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
     OstStatus status = check_extent(scene->mesh, count, nodes);
-    OST_THEN(find_carriers(scene->mesh, count, nodes, face.point, lowest, &face.length));
+    OST_THEN(find_carriers(scene->mesh, count, nodes, lowest));
+    OST_THEN(find_point(scene->mesh, count, nodes, &face));
     if (status == OST_SUCCESS) {
         face.first = lowest[0];
         face.carrier[0] = all_of(constraint->constrained) ? -1 : lowest[0];
