@@ -50,7 +50,7 @@ typedef struct OstTangent {
     int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
     const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
     const double *factor;               /* of its loads, one for each function of time */
-    const double *turning;              /* 9 for each rigid face, added to the stiffness of its rotation; or NULL */
+    const OstTurning *turning;          /* of links that turn, or NULL */
 } OstTangent;
 
 /* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
@@ -66,7 +66,7 @@ OstStatus ost_system_take_rows(const OstSystem *system, const double *force, dou
 
 /* Collective, a step of ost_system_fill. Makes the matrix T' K T from K of all nodes, where nodes follow others;
  * `turning` as of OstTangent. */
-OstStatus ost_system_condense(OstSystem *system, const double *turning);
+OstStatus ost_system_condense(OstSystem *system, const OstTurning *turning);
 
 /* Collective. Right-hand side of the rows, P (force - K g + share × B'C e0): `force`
  * are the loads on local nodes (3 × node_count, complete on owned nodes); K g is computed only on tets that touch a

@@ -370,22 +370,19 @@ static OstStatus fill(const OstProblem *problem, double t, const double *u, cons
                           .u = u,
                           .from = turns ? NULL : from,
                           .definite = definite};
-    double *factor = NULL, *turning = NULL;
-    OstStatus status = OST_SUCCESS;
+    double *factor = NULL;
+    OstTurning turning = {0};
     if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
         return ost_system_fill_tangent(problem->system, problem->field, NULL);
-    if (turns) {
-        OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &turning, 9 * problem->supports->links->face_count)));
-        status = ost_problem_find_turning(problem, t, u, definite, turning);
-        tangent.turning = turning;
-    }
+    OstStatus status = ost_problem_find_turning(problem, t, u, definite, &turning);
+    tangent.turning = &turning;
     if (problem->follower && !definite) {
         OST_THEN(factors_at(problem, t, &factor));
         tangent.follower = problem->follower;
         tangent.factor = factor;
     }
     OST_THEN(ost_system_fill_tangent(problem->system, problem->field, &tangent));
-    OST_FREE(factor, turning);
+    OST_FREE(factor, turning.faces, turning.levers);
     return status;
 }
 

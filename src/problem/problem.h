@@ -108,8 +108,8 @@ OstStatus ost_problem_function_displacement(const OstProblem *problem, int funct
 /* Collective, once the loads are there: finds N. */
 OstStatus ost_problem_find_levers(OstProblem *problem);
 
-/* Collective. Takes the rigid faces, with the weights of their nodes, to a displacement (NULL: none), at which loads,
- * rows of forces and displacements of rows are then meant. */
+/* Collective. Takes the rigid faces, and the weights of nodes that follow these or levers, to a displacement (NULL:
+ * none), at which loads, rows of forces and displacements of rows are then meant. */
 OstStatus ost_problem_turn(const OstProblem *problem, const double *u);
 
 /* Local. Adds the forces at owned nodes, as the faces are turned; and returns their work on all ranks. */
@@ -119,9 +119,11 @@ double ost_problem_lever_work(const OstProblem *problem, double t);
 /* Collective. Is there a rigid face whose rotation is an unknown? */
 int ost_problem_has_turning(const OstProblem *problem);
 
-/* Collective. What forces at the arms of such faces add to the stiffness of their rotations: 9 numbers for each face,
- * made positive semidefinite if `definite`. Once the faces are turned to u. */
-OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite, double *turning);
+/* Collective. What forces at the arms of such faces, and of levers, add to the stiffness, made positive semidefinite if
+ * `definite`; once links are turned to u. The arrays of `turning` are the caller's to free, NULL where there is none.
+ */
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
+                                   OstTurning *turning);
 
 /* Collective. Puts what is prescribed at t into a displacement, the rest of which is kept; v has room for 3 × rows. */
 OstStatus ost_problem_prescribe(const OstProblem *problem, double t, double *v, double *u);

@@ -20,7 +20,7 @@ static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 /* Of the body's diagonal: how far a tied vertex may be from its faces. */
 static const double tied_within = 1e-3;
 
-/* Of a face: a vertex farther away is the end of a lever, which turns by its weights as in linear theory. */
+/* Of a face: a vertex farther away is the end of a lever, whose weights change as it turns. */
 static const double most_gap = 1e-6;
 
 /* A weight below this is rounding. */
@@ -178,6 +178,7 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
     const double *x = scene->mesh->coordinates + 3 * (size_t)node;
     OstFacePoint found;
     OstLeader leader[OST_MOST_LEADERS];
+    OstLever lever = {.node = node};
     int leaders = 0;
     ost_face_search_nearest(search, x, &found);
     if (!(found.distance <= within))
@@ -195,18 +196,14 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
         if (largest < no_weight)
             continue;
         leader[leaders].number = found.number[k];
+        lever.share[leaders] = found.share[k];
+        memcpy(lever.slope[leaders], found.slope[k], sizeof found.slope[k]);
         memcpy(leader[leaders++].weight, found.weight[k], sizeof found.weight[k]);
     }
     (*follows)++;
-    links->gaps |= found.gap > most_gap;
-    if (found.gap > most_gap && scene->c->large_rotation == OST_LARGE_ROTATION_ON &&
-        ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION))
-        return OST_RAISE(
-            scene->ctx, OST_INVALID_INPUT,
-            "vertex %lld at (%g, %g, %g) is %.3g away from the faces that it is tied to; across a gap a tie "
-            "turns by linear theory alone: let the faces meet, or say large_rotation: off",
-            (long long)ost_mesh_node_number(scene->mesh, node), x[0], x[1], x[2], found.distance);
-    return ost_links_add(links, node, leaders, leader, x, nothing);
+    lever.across = found.across;
+    OST_TRY(ost_links_add(links, node, leaders, leader, x, nothing));
+    return found.gap > most_gap ? ost_links_add_lever(links, &lever) : OST_SUCCESS;
 }
 
 static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint, OstLinks *links)

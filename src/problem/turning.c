@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -131,7 +132,8 @@ double ost_problem_lever_work(const OstProblem *problem, double t)
 
 OstStatus ost_problem_turn(const OstProblem *problem, const double *u)
 {
-    return ost_rigid_faces_turn(problem->supports->links, u);
+    OST_TRY(ost_rigid_faces_turn(problem->supports->links, u));
+    return ost_levers_turn(problem->supports->links, u);
 }
 
 int ost_problem_has_turning(const OstProblem *problem)
@@ -142,34 +144,36 @@ int ost_problem_has_turning(const OstProblem *problem)
     return any;
 }
 
-/* What is out of balance at the nodes, but for forces that levers stand for. */
-static OstStatus sum_nodes(const OstProblem *problem, double t, const double *u, double *turning)
+/* What is out of balance at the nodes, but for forces that levers at rigid faces stand for. */
+static OstStatus find_out_of_balance(const OstProblem *problem, double t, const double *u, double **force)
 {
-    const OstLinks *links = problem->supports->links;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    double *internal = NULL, *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, &internal, owned);
+    double *load = NULL;
+    OstStatus status = OST_NEW(problem->ctx, force, owned);
     OST_THEN(OST_NEW(problem->ctx, &load, owned));
-    OST_THEN(ost_problem_force(problem, t, u, internal));
-    if (status == OST_SUCCESS)
+    OST_THEN(ost_problem_force(problem, t, u, *force));
+    if (status == OST_SUCCESS) {
         ost_problem_load(problem, t, u, load);
+        ost_problem_add_levers(problem, t, *force);
+    }
     for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
-        load[i] = -load[i];
-    if (status == OST_SUCCESS)
-        ost_problem_add_levers(problem, t, load);
-    for (OstLocal i = 0; i < links->count && status == OST_SUCCESS; i++) {
+        (*force)[i] -= load[i];
+    OST_FREE(load);
+    return ost_agree(problem->ctx, status);
+}
+
+/* Of the nodes of rigid faces. */
+static OstStatus sum_nodes(const OstLinks *links, const double *force, double *turning)
+{
+    for (OstLocal i = 0; i < links->count; i++) {
         const OstLink *link = &links->link[i];
-        const size_t n = 3 * (size_t)link->node;
-        double arm[3], force[3];
+        double arm[3];
         if (link->face < 0)
             continue;
         ost_rigid_face_arm(links, link, arm);
-        for (size_t c = 0; c < 3; c++)
-            force[c] = internal[n + c] + load[n + c];
-        ost_add_turning(arm, force, 1.0, turning + 9 * link->face);
+        ost_add_turning(arm, force + 3 * (size_t)link->node, 1.0, turning + 9 * link->face);
     }
-    OST_FREE(internal, load);
-    return ost_agree(problem->ctx, status);
+    return ost_sum(links->ctx, 9 * links->face_count, turning);
 }
 
 /* Of a component that is given nothing is left; of what softens, if it is to be definite. */
@@ -189,24 +193,43 @@ static OstStatus restrict_to_free(OstContext *ctx, const OstRigidFace *face, int
     return OST_SUCCESS;
 }
 
-OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite, double *turning)
+static OstStatus turn_faces(const OstProblem *problem, double t, const double *force, int definite, double *turning)
 {
     const OstLinks *links = problem->supports->links;
-    OstStatus status = OST_SUCCESS;
-    memset(turning, 0, 9 * (size_t)links->face_count * sizeof *turning);
-    OST_TRY(sum_nodes(problem, t, u, turning));
-    OST_TRY(ost_sum(problem->ctx, 9 * links->face_count, turning));
+    OstStatus status = sum_nodes(links, force, turning);
     for (int f = 0; f < links->face_count && status == OST_SUCCESS; f++) {
-        double lever[9], arm[3][3], force[3][3];
+        double lever[9], arm[3][3], at_arm[3][3];
         if (problem->lever) {
             lever_at(problem, f, t, lever);
-            find_arms(&links->face[f].now, lever, arm, force);
+            find_arms(&links->face[f].now, lever, arm, at_arm);
             for (int k = 0; k < 3; k++)
-                ost_add_turning(arm[k], force[k], -1.0, turning + 9 * f);
+                ost_add_turning(arm[k], at_arm[k], -1.0, turning + 9 * f);
         }
         status = restrict_to_free(problem->ctx, &links->face[f], definite, turning + 9 * f);
     }
     return ost_agree(problem->ctx, status);
+}
+
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
+                                   OstTurning *turning)
+{
+    const OstLinks *links = problem->supports->links;
+    const int turns = ost_problem_has_turning(problem);
+    double *force = NULL;
+    *turning = (OstTurning){0};
+    if (!turns && !(links && links->gaps))
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(problem->ctx, &turning->faces, turns ? 9 * (size_t)links->face_count : 0);
+    OST_THEN(OST_NEW(problem->ctx, &turning->levers, 36 * (size_t)links->lever_count));
+    status = ost_agree(problem->ctx, status);
+    OST_THEN(find_out_of_balance(problem, t, u, &force));
+    if (turns)
+        OST_THEN(turn_faces(problem, t, force, definite, turning->faces));
+    OST_THEN(ost_levers_bend(links, u, force, definite, turning->levers));
+    OST_FREE(force);
+    if (!turns)
+        OST_FREE(turning->faces);
+    return status;
 }
 
 /* --- what is prescribed --- */
@@ -244,6 +267,7 @@ OstStatus ost_problem_prescribe(const OstProblem *problem, double t, double *v, 
         give_motions(problem, t, motion);
         ost_rigid_faces_put(problem->supports->links, motion, u);
     }
+    OST_THEN(ost_levers_put(problem->supports->links, u));
     OST_FREE(motion);
     return status;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/parallel/reduce.h"
@@ -91,7 +92,8 @@ OstStatus ost_newton_move(const OstNewton *newton, const double *from, const dou
 {
     for (size_t i = 0; i < newton->count; i++)
         to[i] = from[i] + length * direction[i];
-    return ost_rigid_faces_move(newton->problem->supports->links, from, direction, length, to);
+    OST_TRY(ost_rigid_faces_move(newton->problem->supports->links, from, direction, length, to));
+    return ost_levers_put(newton->problem->supports->links, to);
 }
 
 static OstStatus go_to(OstNewton *newton, double length, Point *point)

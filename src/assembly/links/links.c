@@ -36,6 +36,8 @@ void ost_links_destroy(OstLinks **links)
         return;
     OST_FREE((*links)->link);
     OST_FREE((*links)->held);
+    OST_FREE((*links)->lever);
+    ost_halo_destroy(&(*links)->of_links);
     OST_FREE((*links)->of_node);
     OST_FREE((*links)->leads);
     OST_FREE((*links)->kept);
@@ -90,6 +92,14 @@ OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
     return OST_SUCCESS;
 }
 
+OstStatus ost_links_add_lever(OstLinks *links, const OstLever *lever)
+{
+    OST_TRY(OST_GROW(links->ctx, &links->lever, links->lever_count + 1));
+    links->lever[links->lever_count++] = *lever;
+    links->gaps = 1;
+    return OST_SUCCESS;
+}
+
 void ost_rigid_face_weight(const OstRigidFace *face, const double arm[3], double weight[9])
 {
     for (int k = 0; k < 3; k++) {
@@ -126,31 +136,38 @@ static OstStatus order_links(OstLinks *links, OstLocal *order)
 }
 
 /* Leader by leader: a whole link is longer than what a halo carries. */
-static OstStatus share_links(OstLinks *links, OstHalo *halo)
+OstStatus ost_links_share_weights(OstLinks *links)
 {
     OstLeader *leader = NULL;
+    OstStatus status = ost_agree(links->ctx, OST_NEW(links->ctx, &leader, links->all));
+    for (int k = 0; k < OST_MOST_LEADERS && status == OST_SUCCESS; k++) {
+        for (OstLocal i = 0; i < links->count; i++)
+            leader[i] = links->link[i].leader[k];
+        status = ost_agree(links->ctx, ost_halo_import(links->of_links, sizeof *leader, leader));
+        for (OstLocal i = links->count; i < links->all; i++)
+            links->link[i].leader[k] = leader[i];
+    }
+    OST_FREE(leader);
+    return status;
+}
+
+static OstStatus share_links(OstLinks *links)
+{
     int *of = NULL; /* how many leaders a link has, whether it is between meshes, and its face */
-    OstStatus status = OST_NEW(links->ctx, &leader, links->all);
-    OST_THEN(OST_NEW(links->ctx, &of, 3 * (size_t)links->all));
+    OstStatus status = OST_NEW(links->ctx, &of, 3 * (size_t)links->all);
     OST_TRY_DONE(ost_agree(links->ctx, status));
     for (OstLocal i = 0; i < links->count; i++)
         memcpy(of + 3 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes, links->link[i].face},
                3 * sizeof *of);
-    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, 3 * sizeof *of, of)));
-    for (int k = 0; k < OST_MOST_LEADERS; k++) {
-        for (OstLocal i = 0; i < links->count; i++)
-            leader[i] = links->link[i].leader[k];
-        OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, sizeof *leader, leader)));
-        for (OstLocal i = links->count; i < links->all; i++)
-            links->link[i].leader[k] = leader[i];
-    }
+    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(links->of_links, 3 * sizeof *of, of)));
+    OST_TRY_DONE(ost_links_share_weights(links));
     for (OstLocal i = links->count; i < links->all; i++) {
         links->link[i].count = of[3 * (size_t)i];
         links->link[i].between_meshes = of[3 * (size_t)i + 1];
         links->link[i].face = of[3 * (size_t)i + 2];
     }
 done:
-    OST_FREE(leader, of);
+    OST_FREE(of);
     return status;
 }
 
@@ -158,12 +175,10 @@ static OstStatus share_with_ghosts(OstLinks *links)
 {
     OstContext *ctx = links->ctx;
     OstLocal *order = NULL;
-    OstHalo *halo = NULL;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &order, links->mesh->node_count));
     OST_THEN(ost_agree(ctx, order_links(links, order)));
-    OST_THEN(ost_agree(ctx, ost_halo_subset(links->mesh->halo, order, &halo)));
-    OST_THEN(share_links(links, halo));
-    ost_halo_destroy(&halo);
+    OST_THEN(ost_agree(ctx, ost_halo_subset(links->mesh->halo, order, &links->of_links)));
+    OST_THEN(share_links(links));
     OST_FREE(order);
     return status;
 }
@@ -272,6 +287,11 @@ static OstStatus take_supports(OstLinks *links, const OstHeld *held)
         status = check_follower(links, leading, &links->link[i]);
         for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
             status = take_leader(links, leading, &links->link[i], k);
+    }
+    for (OstLocal i = 0; i < links->lever_count && status == OST_SUCCESS; i++) {
+        const OstLink *link = ost_link_of(links, links->lever[i].node);
+        for (int k = 0; k < link->count; k++)
+            memcpy(links->lever[i].projector[k], leading[link->slot[k]].held.projector, 9 * sizeof(double));
     }
     OST_FREE(leading);
     return ost_agree(links->ctx, status);

@@ -53,26 +53,41 @@ typedef struct OstHeldWeight {
     double weight[9];
 } OstHeldWeight;
 
+/* A tied node across a gap (levers.h): with the numbers of its leaders' places, and their supports. */
+typedef struct OstLever {
+    OstLocal node;
+    double share[OST_MOST_LEADERS], slope[OST_MOST_LEADERS][2], across;
+    double projector[OST_MOST_LEADERS][9], weight[OST_MOST_LEADERS][9]; /* weight: without the supports */
+} OstLever;
+
+/* What forces at arms add to the stiffness: 9 numbers for each rigid face, 36 for each lever of this rank. */
+typedef struct OstTurning {
+    double *faces, *levers;
+} OstTurning;
+
 typedef struct OstLinks {
     OstContext *ctx;
     const OstMesh *mesh;
     OstLocal count, all, capacity; /* links of owned nodes; then of ghosts, once complete */
     OstLink *link;
-    OstLocal held_count;  /* of owned nodes: */
-    OstHeldWeight *held;  /* on leaders that are constrained */
-    const char *path;     /* of the case, or NULL */
-    int line;             /* where it states the links that are added */
-    int between_meshes;   /* are these of a tie? */
-    int of_face;          /* or of which rigid face? -1: none */
-    OstLocal *of_node;    /* node_count: the link of a node, or -1 */
-    unsigned char *leads; /* node_count: does another follow this one? */
-    unsigned char *kept;  /* owned_nodes: has the node a row though it follows? (carriers) */
-    double *offset;       /* 3 × node_count: g of followers, and 0 */
-    int gaps;             /* does any node, on any rank, follow a face that it does not lie on? */
-    int periodic;         /* are there periodic pairs? On edges of the cell leaders follow others */
-    int moves;            /* is any offset not zero, on any rank? */
-    struct OstHalo *halo; /* owned nodes, and leaders of other ranks */
-    OstLocal slots;       /* both together */
+    OstLocal held_count;      /* of owned nodes: */
+    OstHeldWeight *held;      /* on leaders that are constrained */
+    const char *path;         /* of the case, or NULL */
+    int line;                 /* where it states the links that are added */
+    int between_meshes;       /* are these of a tie? */
+    int of_face;              /* or of which rigid face? -1: none */
+    OstLocal *of_node;        /* node_count: the link of a node, or -1 */
+    unsigned char *leads;     /* node_count: does another follow this one? */
+    unsigned char *kept;      /* owned_nodes: has the node a row though it follows? (carriers) */
+    double *offset;           /* 3 × node_count: g of followers, and 0 */
+    int gaps;                 /* has any rank levers? */
+    int periodic;             /* are there periodic pairs? On edges of the cell leaders follow others */
+    int moves;                /* is any offset not zero, on any rank? */
+    struct OstHalo *halo;     /* owned nodes, and leaders of other ranks */
+    struct OstHalo *of_links; /* links of owned nodes, then of ghosts */
+    OstLocal lever_count;     /* of owned nodes */
+    OstLever *lever;
+    OstLocal slots; /* both together */
     int face_count;
     OstRigidFace *face;
 } OstLinks;
@@ -84,6 +99,9 @@ void ost_links_destroy(OstLinks **links);
  * if it follows others already. */
 OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLeader *leader, const double place[3],
                         const double offset[3]);
+
+/* Local. Notes the lever of a node that has been added; its leaders are those of the link. */
+OstStatus ost_links_add_lever(OstLinks *links, const OstLever *lever);
 
 /* Local. Notes a rigid face; its carriers' rows are kept. */
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face);
@@ -101,6 +119,9 @@ typedef struct OstHeld {
  * offsets, and gives ghosts their owners' links. Raises OST_INVALID_INPUT where a follower is constrained, or followed.
  */
 OstStatus ost_links_complete(OstLinks *links, const OstHeld *held);
+
+/* Collective. Gives ghosts the weights of their owners' links. */
+OstStatus ost_links_share_weights(OstLinks *links);
 
 /* Collective. u += W v of the owned followers, from what owned nodes have of v (`of_leaders`, 3 × links->slots, whose
  * ghosts are filled here); u has 3 numbers for each node. */

@@ -2,6 +2,7 @@
 #include "solve/buckling/modes.h"
 
 #include "algebra/matrix/vector.h"
+#include "assembly/links/levers.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -28,14 +29,14 @@ typedef struct Search {
     double *ghosted;             /* 3 × matrix->columns */
     double *v[BLOCK], *f[BLOCK]; /* 3 × node_count, 3 × owned_nodes */
     double *turned[2];           /* 3 × node_count, 3 × owned_nodes: of loads that follow the surface; or NULL */
-    double *turning;             /* 9 for each rigid face (ost_problem_find_turning), or NULL */
+    OstTurning turning;          /* ost_problem_find_turning */
     double value[BLOCK], residual[BLOCK];
 } Search;
 
 static void release(Search *search)
 {
     OST_FREE(search->room, search->ghosted, search->v[0], search->f[0], search->turned[0], search->turned[1],
-             search->turning);
+             search->turning.faces, search->turning.levers);
 }
 
 static OstStatus allocate(Search *search)
@@ -52,8 +53,6 @@ static OstStatus allocate(Search *search)
         OST_THEN(OST_NEW(ctx, &search->turned[0], nodes));
         OST_THEN(OST_NEW(ctx, &search->turned[1], owned));
     }
-    if (ost_problem_has_turning(problem))
-        OST_THEN(OST_NEW(ctx, &search->turning, 9 * (size_t)problem->supports->links->face_count));
     OST_TRY(ost_agree(ctx, status));
     for (size_t c = 0; c < 3 * block; c++) {
         search->x[c] = search->room + 3 * c * search->n;
@@ -83,13 +82,11 @@ static void add_follower(const Search *search, const double *v, double *force)
     }
 }
 
-static OstStatus find_turning(const Search *search)
+static OstStatus find_turning(Search *search)
 {
     OstProblem answer = *search->problem; /* with its pressure, if it has one */
     answer.field = search->result->field;
-    return search->turning
-               ? ost_problem_find_turning(&answer, search->result->t, search->result->displacement, 0, search->turning)
-               : OST_SUCCESS;
+    return ost_problem_find_turning(&answer, search->result->t, search->result->displacement, 0, &search->turning);
 }
 
 /* Adds what forces at the arms of rigid faces do as these turn. */
@@ -97,14 +94,14 @@ static void add_turning(const Search *search, const double *x, double *forces)
 {
     const OstSystem *system = search->problem->system;
     const OstLinks *links = search->problem->supports->links;
-    for (int f = 0; search->turning && f < links->face_count; f++) {
+    for (int f = 0; search->turning.faces && f < links->face_count; f++) {
         const OstRigidFace *face = &links->face[f];
         const OstGlobal node = face->carrier[1] - system->mesh->first_node;
         double part[3];
         if (face->carrier[1] < 0 || node < 0 || node >= system->mesh->owned_nodes)
             continue;
         const size_t row = 3 * (size_t)system->row_of_node[node];
-        ost_apply3(search->turning + 9 * f, x + row, part);
+        ost_apply3(search->turning.faces + 9 * f, x + row, part);
         for (size_t i = 0; i < 3; i++)
             forces[row + i] += part[i] / (face->length * face->length);
     }
@@ -126,6 +123,7 @@ static OstStatus multiply(Search *search, int first, int count)
     for (int c = 0; c < count; c++) {
         if (problem->follower)
             add_follower(search, search->v[c], search->f[c]);
+        OST_TRY(ost_levers_multiply(problem->supports->links, search->turning.levers, search->v[c], search->f[c]));
         OST_TRY(ost_system_take_rows(system, search->f[c], search->s[first + c]));
         add_turning(search, search->x[first + c], search->s[first + c]);
         for (size_t i = 0; i < search->n; i++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/left_out/left_out.h"
 
+#include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -144,10 +145,11 @@ static OstStatus subtract_half(const OstProblem *problem, const OstResult *resul
     const double share = sign * ost_problem_eigen_share(problem, result->t), *u = work->turned;
     memcpy(work->turned, result->displacement, 3 * (size_t)problem->mesh->node_count * sizeof *work->turned);
     OST_TRY(ost_rigid_faces_move(links, NULL, result->displacement, 1.0, work->turned));
+    OST_TRY(ost_levers_put(links, work->turned));
     OST_TRY(ost_problem_turn(problem, u));
     OST_TRY(ost_agree(problem->ctx, ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT,
                                                           share, u, work->force, NULL)));
-    if (problem->follower || (links && links->face_count > 0)) {
+    if (problem->follower || (links && (links->face_count > 0 || links->gaps))) {
         OstProblem turned = *problem;
         ost_problem_take_formulation(&turned, OST_FORMULATION_CONSISTENT);
         ost_problem_load(&turned, result->t, u, work->load);
