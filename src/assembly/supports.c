@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/supports.h"
 
+#include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -230,6 +231,7 @@ static OstStatus complete_links(OstSupports *supports)
     for (OstLocal n = 0; n < supports->mesh->owned_nodes && status == OST_SUCCESS; n++)
         held[n].constrained = find_support(supports, n, held[n].projector, held[n].prescribed);
     OST_THEN(ost_links_complete(supports->links, held));
+    OST_THEN(ost_rigid_faces_measure(supports->links));
     OST_FREE(held);
     return status;
 }

@@ -41,7 +41,7 @@ OstStatus ost_links_on_vertices(const OstLinks *quadratic, const OstMesh *linear
 {
     OstContext *ctx = quadratic->ctx;
     OstGlobal *number = NULL;
-    int fails = quadratic->face_count > 0 || quadratic->gaps; /* levers turn */
+    int fails = quadratic->face_count > 0;
     OstStatus status = ost_agree(ctx, ost_links_create(linear, links));
     OST_THEN(number_leaders(quadratic, linear, node_of_vertex, &number));
     for (OstLocal v = 0; v < linear->owned_nodes && status == OST_SUCCESS && !fails; v++) {
