@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import os
+import re
 from functools import partial
 
 import numpy
@@ -18,6 +19,10 @@ from .result import Result
 
 _MAY_BE_FREE = ("displacement", "rotation")
 
+# What PyYAML, which is of YAML 1.1, leaves a text: 1e6, 1.5e-3; and the keys that it takes for truth values.
+_NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+_TRUTH = {True: "on", False: "off"}
+
 
 def _plain(value, key=None):
     """What json knows, for numpy's arrays and numbers, and paths; in lists None is the case's `free`, and so is nan in
@@ -25,21 +30,30 @@ def _plain(value, key=None):
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     if isinstance(value, dict):
-        return {name: _plain(item, name) for name, item in value.items()}
+        return {_TRUTH[name] if isinstance(name, bool) else name: _plain(item, name) for name, item in value.items()}
     if isinstance(value, (list, tuple)):
         return ["free" if item is None or (item != item and key in _MAY_BE_FREE) else _plain(item, key) for item in value]
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
+def _written(value):
+    """What _plain makes as the case's text, in which numbers have no quotes."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(str(name))}: {_written(item)}" for name, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_written, value)) + "]"
+    return value if isinstance(value, str) and _NUMBER.fullmatch(value) else json.dumps(value)
+
+
 def _text_of(sections):
     """A dict as the text of a case, a line for each section: messages name the line."""
-    return "{" + ",\n".join(f"{json.dumps(key)}: {json.dumps(_plain(value, key))}" for key, value in sections.items()) + "\n}\n"
+    return "{" + ",\n".join(f"{json.dumps(key)}: {_written(value)}" for key, value in _plain(sections).items()) + "\n}\n"
 
 
 def _value(value):
     """A value of a setting as the case's text."""
     value = _plain(value)
-    return value if isinstance(value, str) else "free" if value is None else json.dumps(value)
+    return value if isinstance(value, str) else "free" if value is None else _written(value)
 
 
 class Case:

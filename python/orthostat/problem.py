@@ -14,6 +14,8 @@ _FORMULATIONS = {"linear": "OST_FORMULATION_LINEAR", "consistent": "OST_FORMULAT
 _METHODS = {"auto": "OST_METHOD_AUTO", "plain": "OST_METHOD_PLAIN", "metric": "OST_METHOD_METRIC",
             "strong": "OST_METHOD_STRONG", "two_level": "OST_METHOD_TWO_LEVEL", "direct": "OST_METHOD_DIRECT"}
 
+_NEARLY_INCOMPRESSIBLE = 0.45  # as in orthostat/field.h
+
 
 def take_result(context, status, box, mesh, scene, *parents, step=None):
     """The result of a solve, or a failure that has it."""
@@ -41,11 +43,15 @@ class Problem:
     constraints: a list of (nodes, displacement) or (nodes, displacement, direction). Nodes: numbers or a mask of this
     rank's own. Displacement: (3,) or (nodes, 3), nan where free; with a direction a number, or one for each node.
     force: (owned_nodes, 3).  formulation: "linear", or "consistent" or "classical" for large rotations.
+    mixed: quadratic tets of nearly incompressible materials have their pressure as an unknown; nu = 1/2 needs it.
     Scenes make problems too (Scene.problem).
     """
 
-    def __init__(self, mesh, material, axes=None, constraints=(), force=None, formulation="linear", free_body=False):
+    def __init__(self, mesh, material, axes=None, constraints=(), force=None, formulation="linear", free_body=False,
+                 mixed=False):
         field = _field(mesh, material, axes)
+        if mixed:
+            mesh.context.check(lib.ost_field_mixed(field.pointer, _NEARLY_INCOMPRESSIBLE, ffi.new("int *")))
         rows = _constraints(mesh, constraints)
         force = None if force is None else array(force, (mesh.owned_nodes, 3), "force")
         parts = ffi.new("OstProblemParts *", {

@@ -110,6 +110,8 @@ static OstStatus adjoint_load(Search *search, const OstInterest *interest, doubl
             ost_spring_force(problem->supports, -1.0, interest->moved, steps->force);
     } else {
         OST_TRY(move_small(search, interest->moved));
+        for (size_t i = 0; i < numbers && interest->load; i++)
+            steps->force[i] += interest->load[i];
     }
     return ost_steps_take_rows(steps, steps->q.rows);
 }

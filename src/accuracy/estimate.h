@@ -8,7 +8,7 @@
 /* A quantity of interest as a linear function of the displacement about u: what its adjoint problem is made of. */
 typedef struct OstInterest {
     double *load; /* 3 × owned_nodes: by how much a displacement grows with each node's; of a moment's arms, where
-                     rotations are large, by how much less it does; or NULL */
+                     rotations are large, and of springs on linked nodes, by how much less it does; or NULL */
     double
         *moved; /* of a reaction: 3 × node_count, a displacement that is 1 along the reaction at its nodes; or NULL */
     double *strain; /* of a mean stress: 6 × tet_count, the eigenstrain whose forces are by how much it grows with each

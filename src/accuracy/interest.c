@@ -59,24 +59,17 @@ static void find_arm(const OstProblem *problem, const OstWatch *watch, const dou
     }
 }
 
-/* The nodes of a reaction, and which components of what acts there others bear too (ost_select_shared). */
+/* The nodes of a reaction, and its shares of what acts there. */
 typedef struct Borne {
     OstLocal count, *nodes;
-    unsigned char *shared;
+    OstBearing *shares;
 } Borne;
 
 static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, Borne *borne)
 {
-    const OstMesh *mesh = problem->mesh;
-    unsigned char *held = NULL;
-    OST_TRY(ost_select_nodes(problem->scene->c, mesh, &watch->on, &borne->count, &borne->nodes));
-    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &held, mesh->node_count)));
-    for (OstLocal n = 0; n < mesh->node_count; n++)
-        held[n] = ost_supports_held(problem->supports, n);
-    const OstStatus status =
-        ost_select_shared(problem->scene->c, mesh, held, borne->count, borne->nodes, &borne->shared);
-    OST_FREE(held);
-    return status;
+    const OstCase *c = problem->scene->c;
+    OST_TRY(ost_select_nodes(c, problem->mesh, &watch->on, &borne->count, &borne->nodes));
+    return ost_select_shares(c, problem->mesh, &watch->on, borne->count, borne->nodes, &borne->shares);
 }
 
 /* The forces on owned nodes, 3 × owned_nodes each. */
@@ -113,17 +106,18 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
     const OstStatus status = find_forces(problem, t, u, &of);
     memset(sum, 0, 7 * sizeof *sum);
     for (OstLocal k = 0; k < borne->count && status == OST_SUCCESS; k++) {
-        const unsigned char shared = borne->shared[nodes[k]];
-        double of_node[3], in_doubt[3], arm[3], moment[3], moment_in_doubt[3];
+        const OstBearing *share = &borne->shares[k];
+        double own[3], of_node[3], in_doubt[3], arm[3], moment[3], moment_in_doubt[3];
         if (nodes[k] >= problem->mesh->owned_nodes)
             continue;
         find_arm(problem, watch, u, nodes[k], arm);
-        for (int i = 0; i < 3; i++) {
-            const size_t n = 3 * (size_t)nodes[k] + (size_t)i;
-            const double share = ost_selected_share(shared, i), own = of.borne[n] + of.load[n];
-            in_doubt[i] = share * (1.0 - share) * 2.0 * own;
-            of_node[i] = share * own + (shared & OST_SHARED_BUT_PASSED ? 0.0 : of.passed[n]);
-        }
+        const size_t first = 3 * (size_t)nodes[k];
+        for (size_t i = 0; i < 3; i++)
+            own[i] = of.borne[first + i] + of.load[first + i];
+        ost_apply3(share->own, own, of_node);
+        ost_apply3(share->in_doubt, own, in_doubt);
+        for (size_t i = 0; i < 3 && share->is_passed; i++)
+            of_node[i] += of.passed[first + i];
         ost_cross3(arm, of_node, moment);
         ost_cross3(arm, in_doubt, moment_in_doubt);
         if (forces)
@@ -141,8 +135,8 @@ static OstStatus find_reaction(const OstProblem *problem, const OstWatch *watch,
 
 /* A leader's support takes what its followers pass on: these move by it as they would without it. What links pass on
  * counts where the selection has it: with the part that no support takes, the leader moves alone. `motion`: of the
- * selected nodes alone; *springs: does one act on a follower that moves? Its force is not then known from the work. */
-static OstStatus move_linked(const OstProblem *problem, const Borne *borne, double *motion, int *springs)
+ * selected nodes alone. */
+static OstStatus move_linked(const OstProblem *problem, const Borne *borne, double *motion)
 {
     const OstSupports *supports = problem->supports;
     const OstLinks *links = supports->links;
@@ -153,8 +147,8 @@ static OstStatus move_linked(const OstProblem *problem, const Borne *borne, doub
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     for (OstLocal k = 0; k < borne->count; k++) {
         const OstLocal node = borne->nodes[k];
-        const double is_passed = borne->shared[node] & OST_SHARED_BUT_PASSED ? 0.0 : 1.0;
-        double *m = motion + 3 * (size_t)node, projector[9], given[3], free_part[3], free_share[3];
+        const double is_passed = borne->shares[k].is_passed ? 1.0 : 0.0;
+        double *m = motion + 3 * (size_t)node, projector[9], given[3], shared[3], free_part[3], free_share[3];
         if (node >= owned || !(links->leads[node] || links->of_node[node] >= 0))
             continue;
         memcpy(given, m, sizeof given);
@@ -164,9 +158,7 @@ static OstStatus move_linked(const OstProblem *problem, const Borne *borne, doub
             m[i] = is_passed * given[i];
         if (links->of_node[node] >= 0)
             continue;
-        double shared[3];
-        for (int i = 0; i < 3; i++)
-            shared[i] = ost_selected_share(borne->shared[node], i) * given[i];
+        ost_apply3_transposed(borne->shares[k].own, given, shared);
         ost_apply3(projector, shared, free_share);
         for (int i = 0; i < 3; i++) {
             held[3 * (size_t)node + (size_t)i] = shared[i] - m[i];
@@ -174,14 +166,22 @@ static OstStatus move_linked(const OstProblem *problem, const Borne *borne, doub
         }
     }
     OST_TRY_DONE(ost_links_follow_held(links, held, followed));
-    for (size_t i = 0; i < 3 * (size_t)owned; i++) {
-        *springs |= supports->spring && followed[i] != 0.0 && supports->spring[9 * (i / 3) + 4 * (i % 3)] != 0.0;
+    for (size_t i = 0; i < 3 * (size_t)owned; i++)
         motion[i] += followed[i];
-    }
-    OST_TRY_DONE(ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof *motion, motion)));
 done:
     OST_FREE(held, followed);
     return status;
+}
+
+/* What a node does that moves by one along the reaction's direction, or turns so about its axis. */
+static void move_along(const OstProblem *problem, const OstWatch *watch, const double *u, const double direction[3],
+                       OstLocal node, double motion[3])
+{
+    double arm[3];
+    find_arm(problem, watch, u, node, arm);
+    memcpy(motion, direction, 3 * sizeof *motion);
+    if (watch->of_moment)
+        ost_cross3(direction, arm, motion);
 }
 
 /* The motion that the reaction is the work on, of what is out of balance: not where who takes it is in doubt. */
@@ -189,23 +189,43 @@ static OstStatus find_motion(const OstProblem *problem, const OstWatch *watch, c
                              OstInterest *interest)
 {
     const OstLinks *links = problem->supports->links;
-    int in_doubt = 0;
+    int is_unknown = 0;
     for (OstLocal k = 0; k < borne->count; k++) {
         const OstLocal node = borne->nodes[k];
-        double arm[3], *moved = interest->moved + 3 * (size_t)node;
-        find_arm(problem, watch, u, node, arm);
-        memcpy(moved, interest->direction, 3 * sizeof *moved);
-        if (watch->of_moment)
-            ost_cross3(interest->direction, arm, moved);
-        in_doubt |= borne->shared[node] & OST_SHARED_IN_DOUBT;
-        for (int i = 0; i < 3 && !(links && (links->leads[node] || links->of_node[node] >= 0)); i++)
-            moved[i] *= ost_selected_share(borne->shared[node], i);
+        double *moved = interest->moved + 3 * (size_t)node;
+        if (node >= problem->mesh->owned_nodes)
+            continue;
+        is_unknown |= borne->shares[k].is_unknown;
+        move_along(problem, watch, u, interest->direction, node, moved);
+        const double given[3] = {moved[0], moved[1], moved[2]};
+        if (!links || (!links->leads[node] && links->of_node[node] < 0))
+            ost_apply3_transposed(borne->shares[k].own, given, moved);
     }
     if (links)
-        OST_TRY(move_linked(problem, borne, interest->moved, &in_doubt));
-    OST_TRY(ost_max_ints(problem->ctx, 1, &in_doubt));
-    interest->doubt = in_doubt ? NAN : interest->doubt;
+        OST_TRY(move_linked(problem, borne, interest->moved));
+    OST_TRY(ost_agree(problem->ctx, ost_halo_import(problem->mesh->halo, 3 * sizeof(double), interest->moved)));
+    OST_TRY(ost_max_ints(problem->ctx, 1, &is_unknown));
+    interest->doubt = is_unknown ? NAN : interest->doubt;
     return OST_SUCCESS;
+}
+
+/* The body's work on the motion has a spring's force where that is the share. Where nodes follow others it need not be:
+ * the difference is a function of the displacement. */
+static void add_springs(const OstProblem *problem, const OstWatch *watch, const double *u, const Borne *borne,
+                        OstInterest *interest)
+{
+    for (OstLocal k = 0; k < borne->count; k++) {
+        double given[3], shared[3], force[3];
+        const OstLocal node = borne->nodes[k];
+        if (node >= problem->mesh->owned_nodes)
+            continue;
+        move_along(problem, watch, u, interest->direction, node, given);
+        ost_apply3_transposed(borne->shares[k].own, given, shared);
+        ost_apply3(problem->supports->spring + 9 * (size_t)node, shared, force);
+        for (size_t i = 0; i < 3; i++)
+            interest->load[3 * (size_t)node + i] += force[i];
+    }
+    ost_spring_force(problem->supports, 1.0, interest->moved, interest->load);
 }
 
 static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, double t, const double *u,
@@ -214,11 +234,13 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     Borne borne = {0};
     double sum[7] = {0.0}, direction[3];
     OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->moved, 3 * (size_t)problem->mesh->node_count)));
-    if (watch->of_moment && !ost_problem_is_linear(problem))
+    const int turns = watch->of_moment && !ost_problem_is_linear(problem);
+    const int differs = problem->supports->links && problem->supports->spring;
+    if (turns || differs)
         OST_TRY(
             ost_agree(problem->ctx, OST_NEW(problem->ctx, &interest->load, 3 * (size_t)problem->mesh->owned_nodes)));
     OstStatus status = select_borne(problem, watch, &borne);
-    OST_THEN(find_reaction(problem, watch, t, u, &borne, interest->load, sum));
+    OST_THEN(find_reaction(problem, watch, t, u, &borne, turns ? interest->load : NULL, sum));
     const OstLocal *nodes = borne.nodes;
     take_direction(watch, sum, direction);
     memcpy(interest->direction, direction, sizeof direction);
@@ -226,15 +248,16 @@ static OstStatus of_reaction(const OstProblem *problem, const OstWatch *watch, d
     interest->doubt = fabs(ost_dot3(direction, sum + 3));
     interest->size = sum[6];
     OST_THEN(find_motion(problem, watch, u, &borne, interest));
-    for (OstLocal n = 0; n < borne.count && interest->load && status == OST_SUCCESS; n++) {
+    for (OstLocal n = 0; n < borne.count && turns && status == OST_SUCCESS; n++) {
         double force[3], *turned = interest->load + 3 * (size_t)nodes[n];
         if (nodes[n] >= problem->mesh->owned_nodes)
             continue;
         memcpy(force, turned, sizeof force); /* arms grow with the displacement */
         ost_cross3(direction, force, turned);
     }
-    OST_FREE(borne.nodes);
-    OST_FREE(borne.shared);
+    if (differs && status == OST_SUCCESS)
+        add_springs(problem, watch, u, &borne, interest);
+    OST_FREE(borne.nodes, borne.shares);
     return status;
 }
 

@@ -211,19 +211,6 @@ static int find_support(const OstSupports *supports, OstLocal node, double proje
     return constrained;
 }
 
-unsigned char ost_supports_held(const OstSupports *supports, OstLocal node)
-{
-    static const double nothing = 1e-6;
-    double projector[9];
-    unsigned held = 0;
-    find_support(supports, node, projector, NULL);
-    for (size_t i = 0; i < 3; i++) {
-        const double spring = supports->spring ? supports->spring[9 * (size_t)node + 4 * i] : 0.0;
-        held |= (projector[4 * i] < 1.0 - nothing ? 1U : 0U) << i | (spring > 0.0 ? 8U : 0U) << i;
-    }
-    return (unsigned char)held;
-}
-
 static OstStatus complete_links(OstSupports *supports)
 {
     OstHeld *held = NULL;

@@ -50,9 +50,6 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
  * identity). Of a node that follows others, g is its offset. */
 int ost_supports_get(const OstSupports *supports, OstLocal node, double projector[9], double prescribed[3]);
 
-/* Local. Along which of x, y and z constraints (bits 1, 2, 4) and springs (8, 16, 32) act on a node; not the links. */
-unsigned char ost_supports_held(const OstSupports *supports, OstLocal node);
-
 /* Local. Adds `factor` times what the supports prescribe to a displacement of all local nodes. */
 void ost_supports_add(const OstSupports *supports, double factor, double *u);
 

@@ -78,11 +78,16 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
 {
     const char *name;
     OST_TRY(ost_yaml_text(yaml, node, &name));
-    if (strcmp(name, "energy") == 0)
-        return OST_SUCCESS;
     for (int w = 0; w < c->watch_count; w++)
         if (strcmp(c->watches[w].name, name) == 0)
             c->interest = w + 1;
+    if (strcmp(name, "energy") == 0 && c->interest == 0)
+        return OST_SUCCESS;
+    if (strcmp(name, "energy") == 0)
+        return ost_yaml_raise(yaml, node,
+                              "'energy' is the norm of the energy here, and the quantity watched in line %d has that "
+                              "name too; give that one another name, or leave 'of' out for the norm",
+                              c->watches[c->interest - 1].line);
     if (c->interest == 0)
         return ost_yaml_raise(
             yaml, node,

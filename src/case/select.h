@@ -8,23 +8,21 @@
  * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
-/* OST_SHARED_BUT_PASSED: what links and moved couplings pass on at the node belongs to others; IN_DOUBT: to which of
- * two of them cannot be told, or there is a spring too. */
-enum { OST_SHARED_BUT_PASSED = 64, OST_SHARED_IN_DOUBT = 128 };
+/* What a selection bears at one of its nodes, the rest being other supports'. */
+typedef struct OstBearing {
+    double own[9];      /* times the force of constraints and springs there: its part */
+    double in_doubt[9]; /* times it: the part that may as well be more or less */
+    int is_passed;      /* does it have what links and moved couplings pass on there? */
+    int is_unknown;     /* do two of them meet there, so that what it has of that is not known? */
+} OstBearing;
 
-/* Collective. What other supports bear of the reaction of a selection's nodes, along x, y and z: a part (bits 1, 2, 4)
- * or all (bits 8, 16, 32). Nodes at an edge of its faces are asked, behind which faces of the surface are held that are
- * not selected: what acts there is borne by both, or, where the selected faces are not held along that direction, by
- * the others alone; a spring bears nothing where a constraint or a rigid face does. `held` and `*shared` (memory from
- * the context): a byte for each local node, the former as ost_supports_held has it. */
-OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
-                            const OstLocal *nodes, unsigned char **shared);
-
-/* Local. The selection's share of what acts at a node along a direction, 0 to 2, of the byte that is `shared`. */
-static inline double ost_selected_share(unsigned char shared, int direction)
-{
-    return shared >> (3 + direction) & 1 ? 0.0 : shared >> direction & 1 ? 0.5 : 1.0;
-}
+/* Collective. Of a selection's nodes, as ost_select_nodes has them: `shares`, memory from the context, which counts for
+ * owned ones. At an edge of its faces, others of the surface may be held or lie on springs. Each bears what acts along
+ * directions that its own constraint holds, half of it where both hold them; springs bear by their stiffness, and
+ * nothing where a constraint does. Of a part of a rigid, tied, periodic or coupled face on which springs act the
+ * selection has the springs' force alone. */
+OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstSelection *on, OstLocal count,
+                            const OstLocal *nodes, OstBearing **shares);
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */
 int ost_selection_names(const OstSelection *selection, const char *boundary);

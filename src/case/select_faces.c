@@ -4,7 +4,8 @@
 #include "core/error.h"
 #include "core/index_map.h"
 #include "core/memory.h"
-#include "core/parallel/halo.h"
+#include "core/parallel/reduce.h"
+#include "core/small.h"
 
 #include <string.h>
 
@@ -12,7 +13,7 @@
 typedef struct Faces {
     const OstMesh *mesh;
     const OstSurface *surface; /* the mesh's */
-    unsigned char *selected;   /* surface->count */
+    unsigned char *selected;   /* surface->count: not 0, or bits, where a face is */
     OstIndex *index;           /* of the surface's faces by their vertices, ascending */
 } Faces;
 
@@ -42,16 +43,23 @@ static OstStatus fill_index(Faces *faces)
     return OST_SUCCESS;
 }
 
+/* The face of the surface that is an item of a boundary, or -1. */
+static OstLocal find_face(const Faces *faces, const OstBoundary *boundary, OstLocal item)
+{
+    OstLocal nodes[3];
+    OstGlobal vertices[3];
+    for (int k = 0; k < 3; k++)
+        nodes[k] = (OstLocal)boundary->nodes[(size_t)item * (size_t)boundary->nodes_per_item + (size_t)k];
+    sort_vertices(nodes, vertices);
+    return ost_index_find(faces->index, vertices);
+}
+
 static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, const OstBoundary *boundary,
                                Faces *faces)
 {
     for (OstLocal i = 0; i < boundary->count; i++) {
-        OstLocal nodes[3];
-        OstGlobal vertices[3];
-        for (int k = 0; k < 3; k++)
-            nodes[k] = (OstLocal)boundary->nodes[(size_t)i * (size_t)boundary->nodes_per_item + (size_t)k];
-        sort_vertices(nodes, vertices);
-        const OstLocal face = ost_index_find(faces->index, vertices);
+        const OstGlobal *nodes = boundary->nodes + (size_t)i * (size_t)boundary->nodes_per_item;
+        const OstLocal face = find_face(faces, boundary, i);
         const OstGlobal *label = faces->mesh->node_label;
         if (face < 0)
             return ost_select_raise(
@@ -66,8 +74,8 @@ static OstStatus flag_boundary(const OstCase *c, const OstSelection *selection, 
     return OST_SUCCESS;
 }
 
-/* Selects faces all of whose nodes are selected; also used for boundaries of points and curves. */
-static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, Faces *faces)
+/* Sets a bit of faces all of whose nodes are selected; also used for boundaries of points and curves. */
+static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, unsigned char bit, Faces *faces)
 {
     unsigned char *flags = NULL;
     const int n = faces->surface->nodes_per_face;
@@ -76,7 +84,7 @@ static OstStatus flag_by_nodes(const OstCase *c, const OstSelection *selection, 
         int all = 1;
         for (int k = 0; k < n; k++)
             all &= flags[faces->surface->nodes[(size_t)f * (size_t)n + (size_t)k]];
-        faces->selected[f] |= (unsigned char)all;
+        faces->selected[f] |= all ? bit : 0;
     }
     OST_FREE(flags);
     return OST_SUCCESS;
@@ -107,7 +115,7 @@ static OstStatus flag_faces(const OstCase *c, const OstSelection *selection, Fac
     for (int b = 0; selection->kind == OST_SELECT_BOUNDARY && b < mesh->boundary_count; b++)
         of_faces |= mesh->boundaries[b].dimension == 2 && ost_selection_names(selection, mesh->boundaries[b].name);
     if (!of_faces)
-        return flag_by_nodes(c, selection, faces);
+        return flag_by_nodes(c, selection, 1, faces);
     OST_TRY(ost_agree(ctx, fill_index(faces)));
     OstStatus status = check_all_are_faces(c, selection, mesh);
     for (int b = 0; b < mesh->boundary_count && status == OST_SUCCESS; b++)
@@ -158,163 +166,349 @@ done:
 
 /* --- nodes that two supports hold --- */
 
-/* Of nodes, beside bits for x, y and z: along what faces of the selection are held, and others, by constraints (shift
- * 0) or by springs (shift 6). */
+enum { OF_SELECTION = 1, OF_SUPPORT = 2 }; /* bits of faces */
+
+/* Bits of nodes. */
 enum {
-    ALONG = 7,
-    OWN = 0,
-    OTHERS = 3,
-    BY_SPRINGS = 6,
-    SELECTED = 1 << 12,
-    HAS_FACE = 1 << 13,
-    IS_RIGID = 1 << 14,
-    LINKS_OWN = 1 << 15,    /* a link, or moved coupling, has selected faces there */
-    LINKS_OTHERS = 1 << 16, /* one has others there alone */
-    HAS_OWN = 1 << 17,      /* the one that is looked at */
-    HAS_OTHERS = 1 << 18
+    SELECTED = 1,
+    HAS_SPRING = 2,
+    HAS_OWN = 4,       /* a face of the support that is looked at, which is selected */
+    HAS_OTHERS = 8,    /* one that is not */
+    LINKS_OWN = 16,    /* a link, or moved coupling, has selected faces there */
+    LINKS_OTHERS = 32, /* one has others there alone */
+    BEARS_SPRINGS = 64 /* a part of a link's nodes is selected, where springs act: these are asked for */
 };
 
-/* What holds a face. */
-typedef enum { HELD_BY_CONSTRAINT, HELD_RIGID, HELD_BY_SPRINGS, HELD_BY_LINK } Holder;
+/* What holds a node of a selected face: by selected faces, and by others. */
+typedef struct Bearers {
+    double constrained[2][9]; /* sums of projectors on the directions that constraints hold */
+    double springs[2][9];     /* stiffness */
+    double all[9];            /* as `constrained`, constraints without faces there too */
+} Bearers;
 
-/* Faces between selected nodes are those of the selection. */
-static void look_at_selected(const OstSurface *surface, unsigned *flags)
+typedef struct Sharing {
+    const OstCase *c;
+    Faces faces;          /* with bits */
+    unsigned char *nodes; /* bits */
+    unsigned char *in;    /* is a node of the support that is looked at? */
+    OstLocal *place;      /* of a node in `bearers`, or -1 */
+    Bearers *bearers;
+} Sharing;
+
+static void add_matrix(double factor, const double *a, double *sum)
 {
-    for (OstLocal f = 0; f < surface->count; f++) {
-        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
-        unsigned selected = SELECTED;
-        for (int k = 0; k < surface->nodes_per_face; k++)
-            selected &= flags[node[k]];
-        for (int k = 0; k < surface->nodes_per_face && selected; k++)
-            flags[node[k]] |= HAS_FACE;
-    }
+    for (int i = 0; i < 9; i++)
+        sum[i] += factor * a[i];
 }
 
-/* Faces between nodes `in` one support leave bits at their nodes: of constraints for what all of these are `held`
- * along; of rigid faces, and of springs, which on quadratic tets act between vertices, for all directions. */
-static void look_at_faces(const OstSurface *surface, const unsigned char *in, const unsigned char *held, Holder by,
-                          unsigned *flags)
+/* across I + (along - across) n n', for a unit vector n, or 0. */
+static void find_block(double along, double across, const double n[3], double block[9])
 {
-    for (OstLocal f = 0; f < surface->count; f++) {
-        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
-        unsigned along = ALONG, selected = SELECTED;
-        for (int k = 0; k < surface->nodes_per_face; k++) {
-            along &= !in[node[k]] ? 0U : by == HELD_BY_CONSTRAINT ? held[node[k]] : ALONG;
-            selected &= flags[node[k]];
-        }
-        const int shift = (by == HELD_BY_SPRINGS ? BY_SPRINGS : 0) + (selected ? OWN : OTHERS);
-        unsigned bits = along << shift | (along && by == HELD_RIGID ? IS_RIGID : 0U);
-        if (by == HELD_BY_LINK)
-            bits = along && selected ? HAS_OWN : along ? HAS_OTHERS : 0U;
-        for (int k = 0; k < surface->nodes_per_face; k++)
-            flags[node[k]] |= bits;
-    }
+    for (int i = 0; i < 9; i++)
+        block[i] = (i % 4 == 0 ? across : 0.0) + (along - across) * n[i / 3] * n[i % 3];
 }
 
 /* Boundaries one by one: sides of a body one tet thick lie between two of them. */
-static OstStatus look_at_support(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                                 const OstSelection *on, const unsigned char *held, Holder by, unsigned *flags)
+static OstStatus mark_faces(Sharing *of, const OstSelection *on, unsigned char bit)
 {
-    unsigned char *in = NULL;
-    if (on->kind != OST_SELECT_BOUNDARY) {
-        OST_TRY(ost_select_flags(c, mesh, on, &in));
-        look_at_faces(surface, in, held, by, flags);
-        OST_FREE(in);
-        return OST_SUCCESS;
-    }
-    OST_TRY(ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &in, mesh->node_count)));
+    Faces *faces = &of->faces;
+    const OstMesh *mesh = faces->mesh;
+    if (on->kind != OST_SELECT_BOUNDARY)
+        return flag_by_nodes(of->c, on, bit, faces);
     for (int b = 0; b < mesh->boundary_count; b++) {
         const OstBoundary *boundary = &mesh->boundaries[b];
+        OstSelection one = *on;
+        one.boundaries = (OstNames){1, &mesh->boundaries[b].name};
         if (!ost_selection_names(on, boundary->name))
             continue;
-        memset(in, 0, (size_t)mesh->node_count);
-        for (size_t n = 0; n < (size_t)boundary->count * (size_t)boundary->nodes_per_item; n++)
-            in[boundary->nodes[n]] = 1;
-        look_at_faces(surface, in, held, by, flags);
+        if (boundary->dimension < 2)
+            OST_TRY(flag_by_nodes(of->c, &one, bit, faces));
+        for (OstLocal i = 0; i < boundary->count && boundary->dimension == 2; i++) {
+            const OstLocal face = find_face(faces, boundary, i);
+            if (face >= 0) /* not one within the body */
+                faces->selected[face] |= bit;
+        }
     }
-    OST_FREE(in);
     return OST_SUCCESS;
 }
 
-/* What others bear of a node's reaction: of a selection without faces there nothing is known. */
-static unsigned char borne_by_others(unsigned flags, unsigned held)
+/* Its nodes, its faces, and what these are at their nodes. */
+static OstStatus look_at_support(Sharing *of, const OstSelection *on)
 {
-    unsigned half = 0, all = 0;
-    if (!(flags & SELECTED) || !(flags & HAS_FACE))
-        return 0;
-    const unsigned constrained = flags & IS_RIGID ? ALONG : held;
-    for (unsigned i = 0; i < 3; i++) {
-        const unsigned by = constrained >> i & 1 ? flags : held >> (3 + i) & 1 ? flags >> BY_SPRINGS : 0;
-        const unsigned own = by >> (OWN + i) & 1, others = by >> (OTHERS + i) & 1;
-        half |= (own & others) << i;
-        all |= (others & ~own) << i;
+    const OstSurface *surface = of->faces.surface;
+    OST_FREE(of->in);
+    OST_TRY(ost_select_flags(of->c, of->faces.mesh, on, &of->in));
+    for (OstLocal f = 0; f < surface->count; f++)
+        of->faces.selected[f] &= (unsigned char)~OF_SUPPORT;
+    OST_TRY(mark_faces(of, on, OF_SUPPORT));
+    for (OstLocal f = 0; f < surface->count; f++) {
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
+        for (int k = 0; k < surface->nodes_per_face && of->faces.selected[f] & OF_SUPPORT; k++)
+            of->nodes[node[k]] |= of->faces.selected[f] & OF_SELECTION ? HAS_OWN : HAS_OTHERS;
     }
-    const unsigned passed = flags & LINKS_OWN ? 0U : OST_SHARED_BUT_PASSED;
-    const int is_in_doubt = flags & LINKS_OTHERS && (flags & LINKS_OWN || held >> 3);
-    return (unsigned char)(half | all << 3 | passed | (is_in_doubt ? OST_SHARED_IN_DOUBT : 0U));
+    return OST_SUCCESS;
 }
 
-/* Of a rigid face `held` tells whose a node's force is. */
-static void take_link(OstLocal count, int is_rigid, unsigned *flags)
+static void forget_support(Sharing *of)
 {
-    for (OstLocal n = 0; n < count; n++) {
-        if (flags[n] & HAS_OWN)
-            flags[n] |= LINKS_OWN;
-        else if (flags[n] & HAS_OTHERS && !is_rigid)
-            flags[n] |= LINKS_OTHERS;
-        flags[n] &= ~(unsigned)(HAS_OWN | HAS_OTHERS);
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
+        of->nodes[n] &= (unsigned char)~(HAS_OWN | HAS_OTHERS);
+}
+
+/* A constraint bears what acts along the directions that it holds itself, not what others hold at its nodes. */
+static OstStatus look_at_constraint(Sharing *of, const OstConstraint *constraint)
+{
+    static const unsigned char has[2] = {HAS_OWN, HAS_OTHERS};
+    const double length = ost_norm3(constraint->normal);
+    double held[9] = {0.0};
+    for (int i = 0; i < 9; i++)
+        if (constraint->kind == OST_CONSTRAIN_SLIDE)
+            held[i] = constraint->normal[i / 3] * constraint->normal[i % 3] / (length * length);
+        else
+            held[i] = i % 4 == 0 && (constraint->constrained[i / 4] || constraint->exact[i / 4]) ? 1.0 : 0.0;
+    OST_TRY(look_at_support(of, &constraint->on));
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++) {
+        Bearers *bearers = of->place[n] < 0 ? NULL : &of->bearers[of->place[n]];
+        if (!bearers || !of->in[n])
+            continue;
+        add_matrix(1.0, held, bearers->all);
+        for (int k = 0; k < 2; k++)
+            add_matrix(of->nodes[n] & has[k] ? 1.0 : 0.0, held, bearers->constrained[k]);
     }
+    forget_support(of);
+    return OST_SUCCESS;
+}
+
+/* Flat faces, as in ost_supports_add_foundation. */
+static void take_foundation(Sharing *of, const OstSpring *spring)
+{
+    const OstSurface *surface = of->faces.surface;
+    const double *x = of->faces.mesh->coordinates;
+    for (OstLocal f = 0; f < surface->count; f++) {
+        const OstLocal *node = surface->nodes + (size_t)f * (size_t)surface->nodes_per_face;
+        double sides[2][3], normal[3], block[9];
+        if (!(of->faces.selected[f] & OF_SUPPORT))
+            continue;
+        for (size_t i = 0; i < 6; i++)
+            sides[i / 3][i % 3] = x[3 * (size_t)node[1 + i / 3] + i % 3] - x[3 * (size_t)node[0] + i % 3];
+        ost_cross3(sides[0], sides[1], normal);
+        const double size = ost_norm3(normal);
+        for (int i = 0; i < 3; i++)
+            normal[i] = ost_norm3(spring->direction) > 0.0 ? spring->direction[i] : normal[i] / size;
+        find_block(spring->along, spring->across, normal, block);
+        for (int k = surface->nodes_per_face - 3; k < surface->nodes_per_face; k++) {
+            const OstLocal place = of->place[node[k]];
+            of->nodes[node[k]] |= HAS_SPRING;
+            if (place >= 0)
+                add_matrix(size, block, of->bearers[place].springs[of->faces.selected[f] & OF_SELECTION ? 0 : 1]);
+        }
+    }
+}
+
+/* A vertex's spring belongs to the selection where it is not one of faces. */
+static void take_springs(Sharing *of, const OstSpring *spring)
+{
+    double block[9];
+    find_block(spring->along, spring->across, spring->direction, block);
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++) {
+        if (!of->in[n])
+            continue;
+        of->nodes[n] |= HAS_SPRING;
+        const double others = !(of->nodes[n] & HAS_OTHERS) ? 0.0 : of->nodes[n] & HAS_OWN ? 0.5 : 1.0;
+        if (of->place[n] < 0)
+            continue;
+        add_matrix(6.0 * (1.0 - others), block, of->bearers[of->place[n]].springs[0]);
+        add_matrix(6.0 * others, block, of->bearers[of->place[n]].springs[1]);
+    }
+}
+
+static OstStatus look_at_springs(Sharing *of, const OstSpring *spring)
+{
+    OST_TRY(look_at_support(of, &spring->on));
+    if (spring->kind == OST_SPRING_FOUNDATION)
+        take_foundation(of, spring);
+    else
+        take_springs(of, spring);
+    forget_support(of);
+    return OST_SUCCESS;
+}
+
+/* Where springs act on a part of a linked side that is selected, these are asked for, not what the link passes on. */
+static OstStatus look_at_side(Sharing *of, const OstSelection *on)
+{
+    const OstMesh *mesh = of->faces.mesh;
+    int some[2] = {0}; /* are nodes left out? Are springs at the others? */
+    OST_TRY(look_at_support(of, on));
+    for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
+        some[0] |= of->in[n] && !(of->nodes[n] & SELECTED);
+        some[1] |= of->in[n] && of->nodes[n] & SELECTED && of->nodes[n] & HAS_SPRING;
+    }
+    OST_TRY(ost_max_ints(mesh->ctx, 2, some));
+    for (OstLocal n = 0; n < mesh->owned_nodes && some[0] && some[1]; n++)
+        of->nodes[n] |= of->in[n] ? BEARS_SPRINGS : 0;
+    return OST_SUCCESS;
+}
+
+/* What meets a rigid face at its edge bears nothing there. */
+static void take_link(Sharing *of, int is_rigid)
+{
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++) {
+        if (of->nodes[n] & HAS_OWN)
+            of->nodes[n] |= LINKS_OWN;
+        else if (of->nodes[n] & HAS_OTHERS && !is_rigid)
+            of->nodes[n] |= LINKS_OTHERS;
+    }
+    forget_support(of);
 }
 
 /* The faces of a constraint that links. */
-static OstStatus look_at_link(const OstCase *c, const OstMesh *mesh, const OstSurface *surface,
-                              const OstConstraint *constraint, const unsigned char *held, unsigned *flags)
+static OstStatus look_at_link(Sharing *of, const OstConstraint *constraint)
 {
-    const int is_rigid = constraint->kind == OST_CONSTRAIN_RIGID;
     OstStatus status = OST_SUCCESS;
     if (constraint->kind != OST_CONSTRAIN_PERIODIC)
-        status = look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_LINK, flags);
+        status = look_at_side(of, &constraint->on);
     if (constraint->kind == OST_CONSTRAIN_TIED)
-        OST_THEN(look_at_support(c, mesh, surface, &constraint->to, held, HELD_BY_LINK, flags));
-    for (int p = 0; constraint->kind == OST_CONSTRAIN_PERIODIC && p < constraint->pair_count; p++) {
-        const OstSelection pair = {.kind = OST_SELECT_BOUNDARY, .boundaries = {2, (char **)constraint->pair[p]}};
-        OST_THEN(look_at_support(c, mesh, surface, &pair, held, HELD_BY_LINK, flags));
+        OST_THEN(look_at_side(of, &constraint->to));
+    for (int p = 0; constraint->kind == OST_CONSTRAIN_PERIODIC && p < 2 * constraint->pair_count; p++) {
+        const OstSelection side = {.kind = OST_SELECT_BOUNDARY,
+                                   .boundaries = {1, (char **)&constraint->pair[p / 2][p % 2]}};
+        OST_THEN(look_at_side(of, &side));
     }
-    if (is_rigid)
-        OST_THEN(look_at_support(c, mesh, surface, &constraint->on, held, HELD_RIGID, flags));
-    take_link(mesh->node_count, is_rigid, flags);
+    take_link(of, constraint->kind == OST_CONSTRAIN_RIGID);
     return status;
 }
 
-OstStatus ost_select_shared(const OstCase *c, const OstMesh *mesh, const unsigned char *held, OstLocal count,
-                            const OstLocal *nodes, unsigned char **shared)
+/* Springs first, which links ask for. */
+static OstStatus look_at_all(Sharing *of)
 {
-    const OstSurface *surface;
-    unsigned *flags = NULL;
-    OST_TRY(ost_mesh_surface(mesh, &surface));
-    OstStatus status = OST_NEW(mesh->ctx, shared, mesh->node_count);
-    OST_THEN(OST_NEW(mesh->ctx, &flags, mesh->node_count));
-    status = ost_agree(mesh->ctx, status);
-    for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
-        flags[nodes[n]] = SELECTED;
-    if (status == OST_SUCCESS)
-        look_at_selected(surface, flags);
-    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++) {
-        const OstConstraint *constraint = &c->constraints[k];
-        status = ost_constraint_links(constraint)
-                     ? look_at_link(c, mesh, surface, constraint, held, flags)
-                     : look_at_support(c, mesh, surface, &constraint->on, held, HELD_BY_CONSTRAINT, flags);
-    }
+    const OstCase *c = of->c;
+    OstStatus status = OST_SUCCESS;
+    for (int k = 0; k < c->spring_count; k++)
+        OST_THEN(look_at_springs(of, &c->springs[k]));
+    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
+        status = ost_constraint_links(&c->constraints[k]) ? look_at_link(of, &c->constraints[k])
+                                                          : look_at_constraint(of, &c->constraints[k]);
     for (int k = 0; k < c->load_count && status == OST_SUCCESS; k++)
         if (c->loads[k].kind == OST_LOAD_DISTRIBUTING) {
-            status = look_at_support(c, mesh, surface, &c->loads[k].on, held, HELD_BY_LINK, flags);
-            take_link(mesh->node_count, 0, flags);
+            status = look_at_side(of, &c->loads[k].on);
+            take_link(of, 0);
         }
-    for (int k = 0; k < c->spring_count && status == OST_SUCCESS; k++)
-        status = look_at_support(c, mesh, surface, &c->springs[k].on, held, HELD_BY_SPRINGS, flags);
-    for (OstLocal n = 0; n < mesh->node_count && status == OST_SUCCESS; n++)
-        (*shared)[n] = borne_by_others(flags[n], held[n]);
-    OST_FREE(flags);
-    OST_THEN(ost_halo_import(mesh->halo, 1, *shared));
+    return status;
+}
+
+/* The projector on what a sum of projectors reaches. */
+static OstStatus find_range(OstContext *ctx, const double sum[9], double range[9])
+{
+    static const double nothing = 1e-6;
+    double values[3], vectors[9];
+    OST_TRY(ost_symmetric_eigen(ctx, 3, sum, values, vectors));
+    memset(range, 0, 9 * sizeof *range);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 9 && values[k] > nothing * values[2]; i++)
+            range[i] += vectors[3 * k + i / 3] * vectors[3 * k + i % 3];
+    return OST_SUCCESS;
+}
+
+/* Of f = a + b, a = own x and b = others x, the share a = (own (own + others)^-1) f; and all that is neither's. */
+static OstStatus find_split(OstContext *ctx, const double own[9], const double others[9], double share[9])
+{
+    static const double nothing = 1e-9;
+    double sum[9] = {0.0}, inverse[9] = {0.0}, rest[9] = {0.0}, values[3], vectors[9];
+    add_matrix(1.0, own, sum);
+    add_matrix(1.0, others, sum);
+    OST_TRY(ost_symmetric_eigen(ctx, 3, sum, values, vectors));
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 9; i++) {
+            const double square = vectors[3 * k + i / 3] * vectors[3 * k + i % 3];
+            const int is_held = values[k] > nothing * values[2];
+            inverse[i] += is_held ? square / values[k] : 0.0;
+            rest[i] += is_held ? 0.0 : square;
+        }
+    ost_multiply3(own, inverse, share);
+    add_matrix(1.0, rest, share);
+    return OST_SUCCESS;
+}
+
+static void project_both(const double projector[9], const double a[9], double projected[9])
+{
+    double left[9];
+    ost_multiply3(projector, a, left);
+    ost_multiply3(left, projector, projected);
+}
+
+/* Constraints bear what acts along the directions that they hold, springs the rest. Where two constraints hold the same
+ * one, each bears half, in doubt; springs bear by their stiffness. */
+static OstStatus find_share(OstContext *ctx, const Bearers *by, OstBearing *share)
+{
+    double held[9], free_part[9], own[9], others[9], of_held[9], of_springs[9], twice[9], part[9];
+    OST_TRY(find_range(ctx, by->all, held));
+    for (int i = 0; i < 9; i++)
+        free_part[i] = (i % 4 == 0 ? 1.0 : 0.0) - held[i];
+    OST_TRY(find_range(ctx, by->constrained[0], own));
+    OST_TRY(find_range(ctx, by->constrained[1], others));
+    OST_TRY(find_split(ctx, own, others, of_held));
+    project_both(free_part, by->springs[0], own);
+    project_both(free_part, by->springs[1], others);
+    OST_TRY(find_split(ctx, own, others, of_springs));
+    ost_multiply3(of_held, held, share->own);
+    ost_multiply3(of_springs, free_part, part);
+    add_matrix(1.0, part, share->own);
+    ost_multiply3(of_held, of_held, twice);
+    for (int i = 0; i < 9; i++)
+        twice[i] = 2.0 * (of_held[i] - twice[i]);
+    ost_multiply3(twice, held, share->in_doubt);
+    return OST_SUCCESS;
+}
+
+static OstStatus take_shares(const Sharing *of, OstLocal count, const OstLocal *nodes, OstBearing *shares)
+{
+    static const OstBearing whole = {.own = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    for (OstLocal k = 0; k < count; k++) {
+        const unsigned bits = of->nodes[nodes[k]];
+        const OstLocal place = of->place[nodes[k]];
+        shares[k] = whole;
+        shares[k].is_passed = !(bits & BEARS_SPRINGS) && (place < 0 || bits & LINKS_OWN);
+        shares[k].is_unknown = shares[k].is_passed && place >= 0 && bits & LINKS_OTHERS;
+        if (place >= 0)
+            OST_TRY(find_share(of->faces.mesh->ctx, &of->bearers[place], &shares[k]));
+    }
+    return OST_SUCCESS;
+}
+
+/* Marks the selection, and makes room for what holds the nodes of its faces. */
+static OstStatus look_at_selection(Sharing *of, const OstSelection *on, OstLocal count, const OstLocal *nodes)
+{
+    const OstSurface *surface = of->faces.surface;
+    OstContext *ctx = of->faces.mesh->ctx;
+    OstLocal places = 0;
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
+        of->place[n] = -1;
+    for (OstLocal k = 0; k < count; k++)
+        of->nodes[nodes[k]] = SELECTED;
+    OST_TRY(mark_faces(of, on, OF_SELECTION));
+    for (OstLocal f = 0; f < surface->count; f++)
+        for (int k = 0; k < surface->nodes_per_face && of->faces.selected[f]; k++) {
+            OstLocal *place = &of->place[surface->nodes[(size_t)f * (size_t)surface->nodes_per_face + (size_t)k]];
+            *place = *place < 0 ? places++ : *place;
+        }
+    return ost_agree(ctx, OST_NEW(ctx, &of->bearers, places));
+}
+
+OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstSelection *on, OstLocal count,
+                            const OstLocal *nodes, OstBearing **shares)
+{
+    Sharing of = {.c = c, .faces = {.mesh = mesh}};
+    OST_TRY(ost_mesh_surface(mesh, &of.faces.surface));
+    OstStatus status = OST_NEW(mesh->ctx, shares, count);
+    OST_THEN(OST_NEW(mesh->ctx, &of.faces.selected, of.faces.surface->count));
+    OST_THEN(OST_NEW(mesh->ctx, &of.nodes, mesh->node_count));
+    OST_THEN(OST_NEW(mesh->ctx, &of.place, mesh->node_count));
+    OST_THEN(fill_index(&of.faces));
+    status = ost_agree(mesh->ctx, status);
+    OST_THEN(look_at_selection(&of, on, count, nodes));
+    OST_THEN(look_at_all(&of));
+    OST_THEN(ost_agree(mesh->ctx, take_shares(&of, count, nodes, *shares)));
+    ost_index_destroy(&of.faces.index);
+    OST_FREE(of.faces.selected, of.nodes, of.in, of.place, of.bearers);
     return status;
 }

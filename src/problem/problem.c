@@ -84,7 +84,7 @@ static OstStatus check_incompressible(const OstMesh *mesh, const OstMaterialFiel
         return OST_SUCCESS;
     return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                      "material '%s' is incompressible (nu = 1/2): it needs quadratic tets and the mixed form "
-                     "(ost_field_mixed)",
+                     "(ost_field_mixed, or Problem(..., mixed=True) in Python)",
                      field->material[region].name);
 }
 

@@ -50,7 +50,6 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
     OST_FREE((*result)->passed);
-    OST_FREE((*result)->held);
     OST_FREE((*result)->strain);
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
@@ -91,13 +90,8 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     const OstLocal nodes = result->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &result->force, 3 * (size_t)result->mesh->owned_nodes);
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)nodes));
-    if (watches_reaction(problem)) {
-        OST_THEN(OST_NEW(ctx, &result->held, nodes));
-        if (problem->supports->links || ost_distributing_any(problem))
-            OST_THEN(OST_NEW(ctx, &result->passed, 3 * (size_t)result->mesh->owned_nodes));
-    }
-    for (OstLocal n = 0; n < nodes && result->held && status == OST_SUCCESS; n++)
-        result->held[n] = ost_supports_held(problem->supports, n);
+    if (watches_reaction(problem) && (problem->supports->links || ost_distributing_any(problem)))
+        OST_THEN(OST_NEW(ctx, &result->passed, 3 * (size_t)result->mesh->owned_nodes));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, result->displacement, result->force);
     result->t = ost_problem_eigen_share(problem, t);

@@ -49,22 +49,26 @@ static OstStatus displacement(const OstResult *result, const OstWatch *watch, Os
     return OST_SUCCESS;
 }
 
-/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded. Of components
- * that are `shared` (ost_select_shared) others bear a part, and maybe all that is passed on. */
-static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, unsigned char shared,
+/* A node's reaction, or its moment about the point asked for, with the arm of the body as it is loaded; of it a share,
+ * or, if that is NULL, all. */
+static void add_reaction(const OstResult *result, const OstWatch *watch, OstLocal node, const OstBearing *share,
                          double sum[3])
 {
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     const int turns = result->formulation != OST_FORMULATION_LINEAR;
-    const double is_passed = shared & OST_SHARED_BUT_PASSED ? 0.0 : 1.0;
-    double arm[3], force[3], moment[3];
+    double arm[3], force[3], moment[3], borne[3], passed[3];
     for (int i = 0; i < 3; i++) {
         const size_t n = 3 * (size_t)node + (size_t)i;
-        const double passed = result->passed ? result->passed[n] : 0.0;
+        passed[i] = result->passed ? result->passed[n] : 0.0;
+        borne[i] = result->reaction[n] - passed[i];
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
-        force[i] = ost_selected_share(shared, i) * (result->reaction[n] - passed) + is_passed * passed;
+        force[i] = borne[i];
     }
+    if (share)
+        ost_apply3(share->own, borne, force);
+    for (int i = 0; i < 3; i++)
+        force[i] += !share || share->is_passed ? passed[i] : 0.0;
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
         sum[i] += watch->of_moment ? moment[i] : force[i];
@@ -85,20 +89,20 @@ static void take_adjoint(const OstScene *scene, const OstResult *result, const O
 /* The size of the forces, or moments, that a selection's reaction is the sum of, along what is watched, and that of all
  * the body's: below a rounding's share of it the first is none. *terms: the size in any direction. */
 static OstStatus acts(const OstResult *result, const OstWatch *watch, OstLocal count, const OstLocal *nodes,
-                      const unsigned char *shared, double *terms, int *yes)
+                      const OstBearing *shares, double *terms, int *yes)
 {
     const OstLocal owned = result->mesh->owned_nodes;
     double sums[3] = {0.0};
     for (OstLocal n = 0; n < count; n++) {
         double force[3] = {0.0};
         if (nodes[n] < owned)
-            add_reaction(result, watch, nodes[n], shared[nodes[n]], force);
+            add_reaction(result, watch, nodes[n], &shares[n], force);
         sums[0] += fabs(component_of(force, watch->component));
         sums[2] += ost_norm3(force);
     }
     for (OstLocal n = 0; n < owned; n++) {
         double force[3] = {0.0};
-        add_reaction(result, watch, n, 0, force);
+        add_reaction(result, watch, n, NULL, force);
         sums[1] += ost_norm3(force);
     }
     OST_TRY(ost_sum(result->ctx, 3, sums));
@@ -112,19 +116,19 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     OstContext *ctx = scene->ctx;
     OstLocal *nodes = NULL;
     OstLocal count = 0;
-    unsigned char *shared = NULL;
+    OstBearing *shares = NULL;
     double sum[3] = {0.0};
     int does_act = 0;
     watched->in_doubt = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
-    OstStatus status = ost_select_shared(scene->c, scene->mesh, result->held, count, nodes, &shared);
+    OstStatus status = ost_select_shares(scene->c, scene->mesh, &watch->on, count, nodes, &shares);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes) {
-            add_reaction(result, watch, nodes[n], shared[nodes[n]], sum);
-            watched->in_doubt |= (shared[nodes[n]] & OST_SHARED_IN_DOUBT) != 0;
+            add_reaction(result, watch, nodes[n], &shares[n], sum);
+            watched->in_doubt |= shares[n].is_unknown;
         }
-    OST_THEN(acts(result, watch, count, nodes, shared, &watched->terms, &does_act));
-    OST_FREE(shared);
+    OST_THEN(acts(result, watch, count, nodes, shares, &watched->terms, &does_act));
+    OST_FREE(shares);
     OST_FREE(nodes);
     OST_THEN(ost_sum(ctx, 3, sum));
     OST_THEN(ost_max_ints(ctx, 1, &watched->in_doubt));
@@ -202,7 +206,7 @@ static const char *why_no_energy(const OstScene *scene, const OstResult *result)
 static const char *why_no_reaction(const OstScene *scene, const OstResult *result, const OstWatched *watched)
 {
     if (watched->in_doubt)
-        return "at its edge two links meet, or one and springs: what each of them takes there cannot be told";
+        return "at its edge two links meet: what each of them takes there cannot be told";
     if (scene->c->free_body)
         return "a free body has none";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"

@@ -3,9 +3,9 @@
 import itertools
 
 
-def brick_mesh(path, bricks):
+def brick_mesh(path, bricks, move=lambda place: place):
     """Bricks (name, origin, size, divisions, regions of the layers along z, or a function of the cell) in one Gmsh file, each
-    with the boundaries name_xmin ..."""
+    with the boundaries name_xmin ...; `move`: where nodes go to in the end."""
     nodes, tets, faces, groups = [], [], [], {}
     for name, origin, size, (nx, ny, nz), regions in bricks:
         first = len(nodes)
@@ -35,7 +35,7 @@ def brick_mesh(path, bricks):
         stream.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(groups)}\n")
         stream.writelines(f'{dimension} {number} "{name}"\n' for (dimension, name), number in groups.items())
         stream.write(f"$EndPhysicalNames\n$Nodes\n{len(nodes)}\n")
-        stream.writelines(f"{n + 1} {x!r} {y!r} {z!r}\n" for n, (x, y, z) in enumerate(nodes))
+        stream.writelines(f"{n + 1} {x!r} {y!r} {z!r}\n" for n, (x, y, z) in enumerate(map(move, nodes)))
         stream.write(f"$EndNodes\n$Elements\n{len(items)}\n")
         stream.writelines(f"{n + 1} {kind} 2 {group} {group} {' '.join(map(str, item))}\n"
                           for n, (kind, group, item) in enumerate(items))

@@ -2,7 +2,8 @@
 import os
 import tempfile
 
-from program import SOURCE, check, run, solve, write
+from bricks import brick_mesh
+from program import SOURCE, check, new_folder, run, solve, write
 
 os.environ["ORTHOSTAT_CASES"] = os.path.join(SOURCE, "cases")
 
@@ -130,6 +131,80 @@ watch: {{below: {{reaction: {{boundary: zmin}}, component: x}}, behind: {{reacti
         check(abs(below["value"] + behind["value"] + 1) < 1e-5, f"order {order}: below and behind are not the load: {report['watched']}")
         check(abs(below["value"] + 0.1141) < error, f"order {order}: the foundation bears {below}")
         check(0.5 < below["error"] / (-0.1141 - below["value"]) < 2.5, f"order {order}: the error stated is {below}")
+
+
+SLICE = """mesh: {block: {size: [4, 2, 0.5], divisions: [4, 2, 1]}}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
+large_rotation: off
+constraints:
+  - {on: {boundary: xmin}, slide: [1, 0, 0]}
+  - {on: {boundary: ymin}, slide: [0, 1, 0]}
+  - {on: {boundary: [zmin, zmax]}, displacement: [free, free, 0]}
+loads: [{on: {boundary: xmax}, traction: [0.1, 0, 0]}]
+accuracy: {relative_residual: 1e-12, out_of_reach: accept}
+watch:
+  below: {reaction: {boundary: zmin}, component: z}
+  both: {reaction: {boundary: [zmin, zmax]}, component: x}
+  end: {reaction: {boundary: xmin}, component: x}
+"""
+
+# Under a pressure of 1 all around, each of its planes bears its own: -area x normal.
+LEANING = """mesh: {file: leaning.msh}
+materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3}]
+large_rotation: off
+constraints:
+  - {on: {boundary: a_xmin}, slide: [-1, 0.5, 0.25]}
+  - {on: {boundary: a_ymin}, slide: [0, -1, 0.5]}
+  - {on: {boundary: a_zmin}, slide: [0, 0, 1]}
+loads: [{on: {boundary: [a_xmax, a_ymax, a_zmax]}, pressure: 1}]
+accuracy: {relative_residual: 1e-12, out_of_reach: accept}
+watch:
+""" + "".join(f"  {side}{axis}: {{reaction: {{boundary: a_{side}min}}, component: {axis}}}\n" for side in "xyz" for axis in "xyz")
+
+# A stiff block moves along x by 1, on beds of 5 and of 20.
+ON_BEDS = """mesh: {block: {size: [1, 1, 1], divisions: [2, 2, 2]}}
+element: {order: ORDER}
+materials: [{region: all, youngs_modulus: 1e9, poissons_ratio: 0.3}]
+large_rotation: off
+constraints: [{on: {box: {min: [0, 0, 0], max: [1, 1, 1]}}, displacement: [free, 0, 0]}]
+springs: [{on: {boundary: xmin}, foundation: {normal: 5, tangential: 1}}, {on: {boundary: zmin}, foundation: {normal: 1, tangential: 20}}]
+loads: [{on: {boundary: xmax}, total_force: [25, 0, 0]}]
+watch: {behind: {reaction: {boundary: xmin}, component: x}, below: {reaction: {boundary: zmin}, component: x}}
+"""
+
+# A foot on four springs: of 8 beside its middle they bear 1, 3, 1 and 3. And that foot on a bed, of which half is watched.
+FOOT = """mesh: {block: {size: [2, 2, 1], divisions: [2, 2, 1]}}
+large_rotation: off
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: zmin}, rigid: {at: [1, 1, 0], displacement: [0, 0, free], rotation: [free, free, 0]}}]
+springs: [{on: {vertices: [1, 5, 13, 17]}, spring: 50, direction: [0, 0, 1]}]
+loads: [{on: {boundary: zmax}, total_force: [0, 0, -8], at: [1.5, 1, 1]}]
+watch:
+  left: {reaction: {nearest: [0, 0, 0]}, component: z}
+  right: {reaction: {nearest: [2, 2, 0]}, component: z}
+  tilt: {reaction: {box: {min: [-1, -1, -0.1], max: [3, 1.5, 0.1]}}, component: y, about: [1, 1, 0]}
+  whole: {reaction: {boundary: zmin}, component: z}
+"""
+
+
+def each_support_bears_its_own():
+    """By balance. Sides between two others that are held, planes that lean, springs beside springs and on a rigid face."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "leaning.msh"), [("a", (0, 0, 0), (1, 1, 1), (2, 2, 2), "a")],
+               lambda x: [x[0] + 0.5 * x[1] + 0.5 * x[2], x[1] + 0.5 * x[2], x[2]])
+    planes = {"x": (1, -0.5, -0.25), "y": (0, 1, -0.5), "z": (0, 0, 1)}
+    leaning = {side + axis: part for side, of in planes.items() for axis, part in zip("xyz", of)}
+    foot = {"left": 1, "right": 3, "tilt": -2, "whole": 8}
+    for name, text, ranks, expected in (
+            ("a slice", SLICE, 1, {"below": -0.24, "both": 0, "end": -0.1}), ("planes that lean", LEANING, 2, leaning),
+            ("beds", ON_BEDS.replace("ORDER", "1"), 1, {"behind": -5, "below": -20}),
+            ("beds of quadratic tets", ON_BEDS.replace("ORDER", "2"), 1, {"behind": -5, "below": -20}),
+            ("a foot", FOOT, 1, foot), ("a foot, quadratic", FOOT + "element: {order: 2}\n", 2, foot)):
+        finished, report, _ = solve(text, folder=folder, ranks=ranks)
+        check(finished.exit_code == 0, finished.errors)
+        for key, value in expected.items():
+            of = report["watched"][key]
+            check(abs(of["value"] - value) < 1e-6 and abs(of["error"]) < 1e-6, f"{name}: {key} is {of}, not {value}")
 
 
 def an_energy_is_not_stated_below_zero():
@@ -349,6 +424,7 @@ def main():
     errors_are_stated()
     what_has_no_error_is_told_in_words()
     reactions_balance_the_loads()
+    each_support_bears_its_own()
     springs_bear_nothing_where_nodes_are_held()
     an_energy_is_not_stated_below_zero()
     pressure_follows_no_surface_by_linear_theory()

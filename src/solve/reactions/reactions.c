@@ -312,8 +312,9 @@ static OstStatus find_kept(void *common, int count, void *const *request)
 static OstStatus find_by_adjoint(Wanted *wanted, OstReactions *kept, OstWatchedReaction *found)
 {
     const OstProblem *problem = wanted->search->problem;
-    const double beside = work_beside_supports(wanted->search); /* the given motion may go to `kept` */
-    OstStatus status = kept ? ost_together(problem->ctx, find_kept, OST_MOST_TOGETHER, kept, wanted) : OST_SUCCESS;
+    const double beside = work_beside_supports(wanted->search);  /* the given motion may go to `kept` */
+    const int may_keep = kept && !wanted->search->interest.load; /* by its motion alone */
+    OstStatus status = may_keep ? ost_together(problem->ctx, find_kept, OST_MOST_TOGETHER, kept, wanted) : OST_SUCCESS;
     if (!wanted->is_kept)
         OST_THEN(create(wanted));
     if (wanted->adjoint) {
