@@ -9,7 +9,8 @@
 #include "orthostat/formulation.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Where nodes
- * follow others (assembly/links/links.h), it is that of T' K T: followers have no row. Fully constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+ * follow others (assembly/links/links.h), it is that of T' K T: followers have no row. Fully constrained nodes have no
+ * row. Rows keep the order of the mesh's local nodes, owned first. */
 typedef struct OstSystem {
     OstContext *ctx;
     const OstMesh *mesh;
@@ -80,6 +81,10 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
  * values |B'| |C| (|B| |u| + |e0|): rounding errors of the forces are a few 1e-16 of these. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                              double *force, double *magnitude);
+
+/* Local. The forces, and the sum of the squared mean stresses of this rank's own tets. */
+OstStatus ost_internal_force_and_stress(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                        double *force, double *stress);
 
 /* Local. Adds the nodal forces of t times the eigenstrain, B'C e0, to `force` (3 × owned_nodes). They add up to zero.
  */
