@@ -84,6 +84,10 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                              double *force, double *magnitude);
 
+/* Local. The forces, and the sum of the squared mean stresses of this rank's own tets. */
+OstStatus ost_internal_force_and_stress(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                        double *force, double *stress);
+
 /* Local. Adds the nodal forces of t times the eigenstrain, B'C e0, to `force` (3 × owned_nodes). They add up to zero.
  */
 OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *field, double t, double *force);

@@ -333,6 +333,16 @@ OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u
     return OST_SUCCESS;
 }
 
+OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
+                                       double *stress)
+{
+    const double grown = ost_problem_eigen_share(problem, t);
+    OST_TRY(ost_internal_force_and_stress(problem->mesh, problem->field, grown, u, force, stress));
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0, u, force);
+    return OST_SUCCESS;
+}
+
 /* A failure names the line of the first constraint. */
 static OstStatus make_pattern(OstProblem *problem)
 {

@@ -88,6 +88,10 @@ double ost_problem_factor(const OstProblem *problem, int function, double t);
 /* Local. What of the eigenstrain acts at t. */
 double ost_problem_eigen_share(const OstProblem *problem, double t);
 
+/* Local. ost_problem_force by linear theory, and the sum of the squared mean stresses of this rank's own tets. */
+OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
+                                       double *stress);
+
 /* Local. Adds factor × the load of one function to `force` (3 × owned_nodes), with pressures on the surface as u has
  * moved it (NULL: undeformed). */
 void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force);
