@@ -77,29 +77,39 @@ static OstStatus strain_load(Search *search, const OstInterest *interest)
     return ost_steps_take_rows(&search->steps, search->steps.q.rows);
 }
 
+/* Minus the force of a given motion by linear theory, in steps.force: by the elements' own stiffness, that of the
+ * solve. The pressure of a mixed form has its own equation. */
+static OstStatus move_small(const Search *search, const double *moved)
+{
+    const OstProblem *problem = search->estimate->problem;
+    OstMaterialField field;
+    OstProblem unpressed;
+    ost_problem_at_pressure(problem, NULL, &field, &unpressed);
+    OST_TRY(ost_agree(problem->ctx, ost_internal_force(problem->mesh, &field, 0.0, moved, search->steps.force, NULL)));
+    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
+        search->steps.force[i] = -search->steps.force[i];
+    return OST_SUCCESS;
+}
+
 /* P times the quantity's derivative, or minus the force of its given motion: the right-hand side of z, in q. The motion
  * strains the body and no spring, whose forces are reactions. */
 static OstStatus adjoint_load(Search *search, const OstInterest *interest, double t, const double *u)
 {
     OstSteps *steps = &search->steps;
-    const OstOperator *stiffness = &search->estimate->stiffness;
     const OstProblem *problem = search->estimate->problem;
     const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
     if (interest->strain)
         return strain_load(search, interest);
     if (!interest->moved) {
         memcpy(steps->force, interest->load, numbers * sizeof *steps->force);
-    } else if (stiffness->turned_by) {
+    } else if (search->estimate->stiffness.turned_by) {
         OST_TRY(move_large(search, t, u, interest->moved));
         for (size_t i = 0; i < numbers && interest->load; i++)
             steps->force[i] += interest->load[i];
         if (problem->supports->spring)
             ost_spring_force(problem->supports, -1.0, interest->moved, steps->force);
     } else {
-        memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
-        ost_operator_apply(stiffness, interest->moved, steps->p.functions, steps->force, steps->q.functions);
-        for (size_t i = 0; i < numbers; i++)
-            steps->force[i] *= -stiffness->unit;
+        OST_TRY(move_small(search, interest->moved));
         for (size_t i = 0; i < numbers && interest->load; i++)
             steps->force[i] += interest->load[i];
     }
@@ -153,35 +163,14 @@ static OstStatus solve_adjoint(Search *search, const OstInterest *interest, doub
     return ost_system_displacement(search->estimate->problem->system, 0.0, steps->z, steps->u);
 }
 
-/* r: what z, steps.u, leaves of the adjoint problem on the functions. */
-static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
-{
-    OstSteps *steps = &search->steps;
-    const OstProblem *problem = search->estimate->problem;
-    const size_t numbers = 3 * (size_t)problem->mesh->node_count;
-    for (size_t i = 0; interest->moved && i < numbers; i++)
-        steps->u[i] += interest->moved[i];
-    double most = ost_search_largest(numbers, steps->u);
-    OST_TRY(ost_max(problem->ctx, 1, &most));
-    steps->size = most > 0.0 ? most : 1.0;
-    for (size_t i = 0; i < numbers; i++)
-        steps->u[i] /= steps->size;
-    memset(steps->p.functions, 0, OST_PER_FUNCTION * steps->functions * sizeof *steps->p.functions);
-    ost_operator_apply(&search->estimate->stiffness, steps->u, steps->p.functions, steps->force, steps->r.functions);
-    for (size_t i = 0; i < OST_PER_FUNCTION * steps->functions; i++)
-        steps->r.functions[i] = -steps->r.functions[i];
-    ost_complement_project(&search->estimate->complement, steps->r.functions);
-    return OST_SUCCESS;
-}
-
-/* r: what z, its pressure and the strain of its load leave on the functions. */
-static OstStatus mixed_adjoint_residual(Search *search, const OstState *of)
+/* r: what a z, and the strain of its load or the pressure of a mixed form, leave on the functions. */
+static OstStatus find_left(Search *search, const OstState *of)
 {
     OstSteps *steps = &search->steps;
     OstOperator at_state = search->estimate->stiffness;
     double *left = ost_steps_spare(steps);
     at_state.problem = of->problem;
-    ost_operator_small_force(&at_state, of->eigen_share, of->u, steps->force, left);
+    ost_operator_small_force(&at_state, of->eigen_share, of->u, NULL, left);
     memset(steps->r.rows, 0, steps->rows * sizeof *steps->r.rows);
     return ost_search_take(search, left);
 }
@@ -369,7 +358,7 @@ static OstStatus find_mixed(Search *search, const Wanted *wanted, OstAdjoint *ad
     ost_problem_at_pressure(problem, of_tets, &field, &state);
     take_strain(interest, &field);
     const OstState of = {&state, z, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR, -swelling};
-    OST_TRY_DONE(mixed_adjoint_residual(search, &of));
+    OST_TRY_DONE(find_left(search, &of));
     OST_TRY_DONE(find_surplus(search, wanted, NULL, adjoint));
     if (!search->steps.failed)
         status = ost_pressure_error(search, &of, adjoint->pressure);
@@ -379,16 +368,20 @@ done:
     return status;
 }
 
-/* r of a mean stress: what z, steps.u, and the strain of its load leave. */
-static OstStatus strained_residual(Search *search, const OstInterest *interest)
+/* r of the z of steps.u, which is then in units of steps.size. */
+static OstStatus adjoint_residual(Search *search, const OstInterest *interest)
 {
     OstSteps *steps = &search->steps;
+    const size_t numbers = 3 * (size_t)search->estimate->problem->mesh->node_count;
     OstMaterialField field;
     OstProblem state;
+    for (size_t i = 0; interest->moved && i < numbers; i++)
+        steps->u[i] += interest->moved[i];
     ost_problem_at_pressure(search->estimate->problem, NULL, &field, &state);
     take_strain(interest, &field);
-    OST_TRY(mixed_adjoint_residual(search, &(OstState){&state, steps->u, 1.0, OST_FORMULATION_LINEAR, 0.0}));
-    for (size_t i = 0; i < 3 * (size_t)search->estimate->problem->mesh->node_count; i++)
+    OST_TRY(
+        find_left(search, &(OstState){&state, steps->u, interest->strain ? 1.0 : 0.0, OST_FORMULATION_LINEAR, 0.0}));
+    for (size_t i = 0; i < numbers; i++)
         steps->u[i] /= steps->size;
     return OST_SUCCESS;
 }
@@ -416,8 +409,7 @@ static OstStatus find_plain(Search *search, const Wanted *wanted, OstAdjoint *ad
     OstStatus status = OST_SUCCESS;
     OST_TRY(solve_adjoint(search, wanted->interest, wanted->t, wanted->u, wanted->share));
     memcpy(adjoint->z, search->steps.u, adjoint->nodes * sizeof *adjoint->z);
-    OST_TRY(wanted->interest->strain ? strained_residual(search, wanted->interest)
-                                     : adjoint_residual(search, wanted->interest));
+    OST_TRY(adjoint_residual(search, wanted->interest));
     /* The z of a displacement is that of a force at a vertex, which has no energy: its orders tell nothing. */
     if ((wanted->interest->moved || wanted->interest->strain) && ost_orders_are_known(search->estimate)) {
         OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &of_second, problem->mesh->owned_tets)));

@@ -28,14 +28,14 @@ OstStatus ost_operator_unit(const OstProblem *problem, double *unit);
 OstStatus ost_operator_force(const OstOperator *operator, double t, const double *u, double *missing,
                              double *of_functions, double *energy);
 
-/* Local. Of a mixed form: the forces on the nodes (3 × owned_nodes), and minus those on the functions (3 numbers each;
+/* Local. The forces on the nodes (3 × owned_nodes; NULL: not wanted), and minus those on the functions (3 numbers each;
  * not over the unit), of a small displacement, and of the pressure and a share of the eigenstrain of the problem's
- * field. All are turned with the body where rotations are large. */
+ * field. Curved tets are taken as they are. All are turned with the body where rotations are large. */
 void ost_operator_small_force(const OstOperator *operator, double eigen_share, const double *u, double *force,
                               double *of_functions);
 
-/* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body.
- * (What the stress adds to it is left out: so it is definite.) */
+/* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body, and
+ * of straight tets where they are curved. (What the stress adds to it is left out: so it is definite.) */
 void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
                         float *of_functions);
 

@@ -278,7 +278,8 @@ static void sum_forces(Sum *sum)
         memset(sum->force, 0, 3 * (size_t)mesh->owned_nodes * sizeof *sum->force);
     memset(sum->of_functions, 0, 3 * (size_t)complement->count * sizeof *sum->of_functions);
     sum->work = 0.0;
-    if (sum->force || ost_field_is_eigenstrained(sum->operator->problem->field))
+    const OstMaterialField *field = sum->operator->problem->field;
+    if (sum->force || sum->operator->turned_by || field->pressure || ost_field_is_eigenstrained(field))
         (void)sum_states(NULL, 1, &alone);
     else
         (void)ost_together(mesh->ctx, sum_states, OST_MOST_TOGETHER, (void *)complement, sum);

@@ -207,6 +207,17 @@ static void doubt_linear_theory(const OstAdaption *adaption, OstResult *result, 
     OST_FREE(result->interest.share);
 }
 
+/* What the level is judged by, and its mesh refined for, where the quantity's error is not found. */
+static void take_norm(const OstAdaption *adaption, OstResult *result, OstAdaptLevel *level)
+{
+    level->error.known &= !adaption->watch || result->interest.watch || result->interest.has_no_answer;
+    if (!result->interest.has_no_answer)
+        return;
+    level->by_norm = 1;
+    level->relative_error = result->answer.relative;
+    OST_FREE(result->interest.share);
+}
+
 static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start)
 {
     char share[24];
@@ -226,7 +237,7 @@ static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start
                              .volume = stage->volume,
                              .iterations = result->solve.iterations,
                              .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
-    level->error.known &= !adaption->watch || result->interest.watch;
+    take_norm(adaption, result, level);
     if (level->error.known)
         add_missed(adaption, stage);
     if (level->error.known)

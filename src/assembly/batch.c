@@ -64,6 +64,15 @@ void ost_batch_keep_alike(OstBatch *batch, const OstElement *element, const OstM
         ost_batch_gather_from(batch, element, mesh, field, batch->tet[0], batch->tet[0] + count);
 }
 
+void ost_batch_keep_points(OstBatch *batch, const OstElement *element, OstKeptPoints *kept)
+{
+    batch->elasticity.kept = NULL;
+    if (!element->keep)
+        return;
+    element->keep(batch->x, &batch->elasticity, kept);
+    batch->elasticity.kept = kept;
+}
+
 void ost_visit_means(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u, OstMeansVisit visit,
                      void *data)
 {
@@ -98,6 +107,7 @@ static OstStatus visit_all(void *common, int count, void *const *request)
     const Request *first = request[0];
     const OstMesh *mesh = first->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstKeptPoints kept;
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = first->t;
@@ -105,6 +115,8 @@ static OstStatus visit_all(void *common, int count, void *const *request)
         ost_batch_gather_from(&batch, element, mesh, common, tet, mesh->owned_tets);
         if (first->formulation != OST_FORMULATION_LINEAR)
             ost_batch_keep_alike(&batch, element, mesh, common);
+        else if (count > 1)
+            ost_batch_keep_points(&batch, element, &kept);
         for (int k = 0; k < count; k++)
             visit_batch(request[k], element, &batch);
     }

@@ -67,6 +67,9 @@ void ost_batch_keep_alike(OstBatch *batch, const OstElement *element, const OstM
 /* Local. Reads the vectors of the batch's nodes: vectors[3 n + i] is component i at local node n. */
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered);
 
+/* Local. Evaluates the points of the batch's quadrature into `kept`, for displacements of linear theory that follow. */
+void ost_batch_keep_points(OstBatch *batch, const OstElement *element, OstKeptPoints *kept);
+
 /* Called with each batch of owned tets, the displacements u of their nodes, and their means. */
 typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                               const OstMeans *means);

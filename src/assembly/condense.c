@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/levers.h"
 #include "assembly/links/row_parts.h"
 #include "assembly/system.h"
 #include "core/error.h"
@@ -24,6 +25,7 @@ typedef struct Entry {
 typedef struct Condensation {
     OstSystem *system;
     const OstLinks *links;
+    const OstTurning *turning; /* of links, or NULL */
     OstRowNumbers rows;
     OstLocal count, capacity;
     Entry *entry;
@@ -74,6 +76,27 @@ static OstStatus spread_blocks(Condensation *c)
                 continue;
             ost_row_parts(&c->rows, other, &right);
             OST_TRY(spread_block(c, &left, &right, matrix->value + 9 * (size_t)k));
+        }
+    }
+    return OST_SUCCESS;
+}
+
+/* What forces at the ends of levers add to the rows of their leaders. */
+static OstStatus bend_levers(Condensation *c)
+{
+    for (OstLocal i = 0; c->turning && c->turning->levers && i < c->links->lever_count; i++) {
+        const OstLever *lever = &c->links->lever[i];
+        OstRowParts parts;
+        ost_row_parts(&c->rows, lever->node, &parts);
+        for (int n = 0; n < parts.count * parts.count; n++) {
+            const int k = n / parts.count, l = n % parts.count;
+            double block[9], product[9];
+            if (parts.row[k] < 0 || parts.row[l] < 0)
+                continue;
+            ost_lever_block(lever, c->turning->levers + 36 * (size_t)i, k, l, block);
+            ost_multiply3(block, lever->projector[l], product);
+            ost_multiply3(lever->projector[k], product, block);
+            OST_TRY(add_entry(c, parts.row[k], parts.row[l], block));
         }
     }
     return OST_SUCCESS;
@@ -250,6 +273,22 @@ static void stiffen_prescribed(double *block)
             block[4 * i] = most;
 }
 
+/* Adds what forces at the arms of rigid faces do to the rows of their rotations. */
+static void add_turning(const Condensation *c)
+{
+    const OstMesh *mesh = c->system->mesh;
+    OstBlockMatrix *matrix = c->system->matrix;
+    for (int f = 0; c->turning && c->turning->faces && f < c->links->face_count; f++) {
+        const OstRigidFace *face = &c->links->face[f];
+        const OstGlobal node = face->carrier[1] - mesh->first_node;
+        if (face->carrier[1] < 0 || node < 0 || node >= mesh->owned_nodes)
+            continue;
+        double *block = matrix->value + 9 * (size_t)matrix->diagonal[c->system->row_of_node[node]];
+        for (int k = 0; k < 9; k++)
+            block[k] += c->turning->faces[9 * f + k] / (face->length * face->length);
+    }
+}
+
 /* The most blocks that a row may have before those of one column are added, and of all rows. */
 static void count_blocks(const Condensation *c, OstLocal *most, OstLocal *all)
 {
@@ -343,7 +382,8 @@ static OstStatus condense(Condensation *c)
     OstContext *ctx = c->system->ctx;
     OstBlockMatrix *matrix = c->system->matrix;
     OST_TRY(ost_row_numbers_create(c->links, c->system->row_of_node, matrix->first_row, &c->rows));
-    const OstStatus status = spread_blocks(c);
+    OstStatus status = spread_blocks(c);
+    OST_THEN(bend_levers(c));
     merge_entries(c);
     OST_TRY(ost_agree(ctx, status));
     OST_TRY(send_entries(c));
@@ -351,12 +391,14 @@ static OstStatus condense(Condensation *c)
     const int is_new = !matrix->row_start;
     if (is_new)
         OST_TRY(make_halo(c));
-    return ost_agree(ctx, make_rows(c, is_new));
+    OST_TRY(ost_agree(ctx, make_rows(c, is_new)));
+    add_turning(c);
+    return OST_SUCCESS;
 }
 
-OstStatus ost_system_condense(OstSystem *system)
+OstStatus ost_system_condense(OstSystem *system, const OstTurning *turning)
 {
-    Condensation c = {.system = system, .links = system->supports->links};
+    Condensation c = {.system = system, .links = system->supports->links, .turning = turning};
     ost_ledger_enter(system->ctx, OST_LEDGER_SUPPORTS);
     const OstStatus status = condense(&c);
     ost_row_numbers_clear(&c.rows);

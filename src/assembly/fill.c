@@ -126,7 +126,7 @@ OstStatus ost_system_fill_tangent(OstSystem *system, const OstMaterialField *fie
     OstContext *ctx = system->ctx;
     if (system->whole) {
         const OstStatus filled = ost_agree(ctx, ost_system_fill_tangent(system->whole, field, tangent));
-        return filled == OST_SUCCESS ? ost_system_condense(system) : filled;
+        return filled == OST_SUCCESS ? ost_system_condense(system, tangent ? tangent->turning : NULL) : filled;
     }
     if (!system->block_of_tet)
         return OST_RAISE(ctx, OST_INVALID_USAGE,

@@ -38,7 +38,29 @@ typedef struct Request {
     double t;
     const double *u;
     double *force, *magnitude;
+    double *stress; /* grows by the squares of the owned tets' mean stresses; NULL: not wanted */
 } Request;
+
+/* Forces and mean stresses by linear theory. */
+static void find_both(const OstElement *element, const OstBatch *batch, const OstSimd *u, OstSimd *force,
+                      OstSimd stress[6])
+{
+    OstMeans means;
+    if (element->force_and_stress) {
+        element->force_and_stress(batch->x, &batch->elasticity, u, force, stress);
+        return;
+    }
+    element->force(batch->x, &batch->elasticity, u, force);
+    element->means(batch->x, &batch->elasticity, u, &means);
+    memcpy(stress, means.stress, sizeof means.stress);
+}
+
+static void add_squares(const OstBatch *batch, OstLocal owned_tets, const OstSimd stress[6], double *sum)
+{
+    for (int slot = 0; slot < batch->count; slot++)
+        for (int p = 0; p < 6 && batch->tet[slot] < owned_tets; p++)
+            *sum += stress[p][slot] * stress[p][slot];
+}
 
 /* Of one batch, which is gathered. */
 static void add_batch(const Request *request, const OstElement *element, const OstBatch *batch)
@@ -47,7 +69,11 @@ static void add_batch(const Request *request, const OstElement *element, const O
     OstSimd of_tets[3 * OST_MAX_TET_NODES];
     const OstLocal owned = request->mesh->owned_nodes;
     ost_batch_gather_vectors(batch, element->nodes, request->u, displacement);
-    if (request->force && request->formulation == OST_FORMULATION_LINEAR)
+    if (request->stress) {
+        OstSimd stress[6];
+        find_both(element, batch, displacement, of_tets, stress);
+        add_squares(batch, request->mesh->owned_tets, stress, request->stress);
+    } else if (request->force && request->formulation == OST_FORMULATION_LINEAR)
         element->force(batch->x, &batch->elasticity, displacement, of_tets);
     else if (request->force)
         ost_large_rotation_force(element, request->formulation, batch->x, &batch->elasticity, displacement, of_tets);
@@ -65,6 +91,7 @@ static OstStatus add_all(void *common, int count, void *const *request)
     const Request *first = request[0];
     const OstMesh *mesh = first->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    OstKeptPoints kept;
     OstBatch batch;
     ost_elasticity_clear(&batch.elasticity);
     batch.elasticity.eigen_share = first->t;
@@ -72,28 +99,43 @@ static OstStatus add_all(void *common, int count, void *const *request)
         ost_batch_gather_from(&batch, element, mesh, common, tet, mesh->tet_count);
         if (first->formulation != OST_FORMULATION_LINEAR)
             ost_batch_keep_alike(&batch, element, mesh, common);
+        else if (count > 1)
+            ost_batch_keep_points(&batch, element, &kept);
         for (int k = 0; k < count; k++)
             add_batch(request[k], element, &batch);
     }
     return OST_SUCCESS;
 }
 
-OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
-                                double t, const double *u, double *force, double *magnitude)
+static OstStatus find(Request *request)
 {
-    const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *u;
-    Request request = {mesh, field, formulation, t, u, force, magnitude};
-    void *const alone = &request;
+    const OstMesh *mesh = request->mesh;
+    const size_t bytes = 3 * (size_t)mesh->owned_nodes * sizeof *request->u;
+    void *const alone = request;
     if (!ost_element_of(mesh->nodes_per_tet))
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "no tets of %d nodes are known; 4 or 10 are expected",
                          mesh->nodes_per_tet);
-    if (force)
-        memset(force, 0, bytes);
-    if (magnitude)
-        memset(magnitude, 0, bytes);
-    if (formulation != OST_FORMULATION_LINEAR || ost_field_is_eigenstrained(field)) /* of a tet as it is then */
-        return add_all((void *)field, 1, &alone);
-    return ost_together(mesh->ctx, add_all, OST_MOST_TOGETHER, (void *)field, &request);
+    if (request->force)
+        memset(request->force, 0, bytes);
+    if (request->magnitude)
+        memset(request->magnitude, 0, bytes);
+    if (request->formulation != OST_FORMULATION_LINEAR ||
+        ost_field_is_eigenstrained(request->field)) /* of a tet as it is then */
+        return add_all((void *)request->field, 1, &alone);
+    return ost_together(mesh->ctx, add_all, OST_MOST_TOGETHER, (void *)request->field, request);
+}
+
+OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
+                                double t, const double *u, double *force, double *magnitude)
+{
+    return find(&(Request){mesh, field, formulation, t, u, force, magnitude, NULL});
+}
+
+OstStatus ost_internal_force_and_stress(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                        double *force, double *stress)
+{
+    *stress = 0.0;
+    return find(&(Request){mesh, field, OST_FORMULATION_LINEAR, t, u, force, NULL, stress});
 }
 
 /* Is a displacement other than 0 prescribed at the node? */

@@ -77,7 +77,9 @@ static void take_faces(const OstSystem *system, const OstRigidFace *face, const 
 {
     const OstMesh *mesh = system->mesh;
     const size_t length = 3 * (size_t)system->matrix->rows;
-    const double arm[3] = {face->point[0] - middle[0], face->point[1] - middle[1], face->point[2] - middle[2]};
+    double arm[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = face->point[i] + face->now.shift[i] - middle[i];
     for (size_t c = 0; c < 2; c++) {
         const OstGlobal node = face->carrier[c] - mesh->first_node;
         if (face->carrier[c] < 0 || node < 0 || node >= mesh->owned_nodes)

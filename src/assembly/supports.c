@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "assembly/supports.h"
 
+#include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -217,6 +218,7 @@ static OstStatus complete_links(OstSupports *supports)
     for (OstLocal n = 0; n < supports->mesh->owned_nodes && status == OST_SUCCESS; n++)
         held[n].constrained = find_support(supports, n, held[n].projector, held[n].prescribed);
     OST_THEN(ost_links_complete(supports->links, held));
+    OST_THEN(ost_rigid_faces_measure(supports->links));
     OST_FREE(held);
     return status;
 }
@@ -255,13 +257,9 @@ void ost_supports_add(const OstSupports *supports, double factor, double *u)
     }
 }
 
-OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
-                                   OstSupports **supports)
+static OstStatus copy_to_vertices(const OstSupports *quadratic, const OstLocal *node_of_vertex, OstSupports *made)
 {
-    OstSupports *made = NULL;
-    *supports = NULL;
-    OST_TRY(ost_supports_create(linear, &made));
-    made->effects = quadratic->effects;
+    const OstMesh *linear = made->mesh;
     OstStatus status = OST_SUCCESS;
     for (OstLocal vertex = 0; vertex < linear->node_count && status == OST_SUCCESS; vertex++) {
         const OstLocal index = quadratic->index[node_of_vertex[vertex]];
@@ -272,7 +270,26 @@ OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *
         if (status == OST_SUCCESS)
             *support = quadratic->support[index];
     }
-    if (status != OST_SUCCESS)
+    return status;
+}
+
+OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
+                                   OstSupports **supports)
+{
+    OstContext *ctx = quadratic->ctx;
+    OstSupports *made = NULL;
+    *supports = NULL;
+    OstStatus status = ost_supports_create(linear, &made);
+    OST_THEN(copy_to_vertices(quadratic, node_of_vertex, made));
+    status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS)
+        made->effects = quadratic->effects;
+    if (status == OST_SUCCESS && quadratic->links) {
+        status = ost_links_on_vertices(quadratic->links, linear, node_of_vertex, &made->links);
+        if (status == OST_SUCCESS && made->links)
+            status = complete_links(made);
+    }
+    if (status != OST_SUCCESS || (quadratic->links && !made->links))
         ost_supports_destroy(&made);
     *supports = made;
     return status;

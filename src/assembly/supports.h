@@ -40,8 +40,9 @@ OstStatus ost_supports_constrain(OstSupports *supports, OstLocal node, const dou
  * OST_INVALID_INPUT if no node of any rank is constrained and there are no springs. */
 OstStatus ost_supports_complete(OstSupports *supports);
 
-/* Local. The same supports, but for springs (ost_springs_on_vertices), on the linear mesh of a quadratic one's
- * vertices; node_of_vertex as ost_mesh_linear gives it. */
+/* Collective. The same supports, but for springs (ost_springs_on_vertices), on the linear mesh of a quadratic one's
+ * vertices; node_of_vertex as ost_mesh_linear gives it. NULL where links have no linear form (ost_links_on_vertices).
+ */
 OstStatus ost_supports_on_vertices(const OstSupports *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                    OstSupports **supports);
 

@@ -9,7 +9,8 @@
 #include "orthostat/formulation.h"
 
 /* The linear system of the nodes that are free in at least one direction: P K P + s(I - P), in 3×3 blocks. Where nodes
- * follow others (assembly/links/links.h), it is that of T' K T: followers have no row. Fully constrained nodes have no row. Rows keep the order of the mesh's local nodes, owned first. */
+ * follow others (assembly/links/links.h), it is that of T' K T: followers have no row. Fully constrained nodes have no
+ * row. Rows keep the order of the mesh's local nodes, owned first. */
 typedef struct OstSystem {
     OstContext *ctx;
     const OstMesh *mesh;
@@ -49,6 +50,7 @@ typedef struct OstTangent {
     int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
     const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
     const double *factor;               /* of its loads, one for each function of time */
+    const OstTurning *turning;          /* of links that turn, or NULL */
 } OstTangent;
 
 /* Local. As ost_system_fill, with the stiffness at a displacement (NULL: the linear one). */
@@ -62,8 +64,9 @@ OstStatus ost_system_restore_scatter(OstSystem *system);
  */
 OstStatus ost_system_take_rows(const OstSystem *system, const double *force, double *of_rows);
 
-/* Collective, a step of ost_system_fill. Makes the matrix T' K T from K of all nodes, where nodes follow others. */
-OstStatus ost_system_condense(OstSystem *system);
+/* Collective, a step of ost_system_fill. Makes the matrix T' K T from K of all nodes, where nodes follow others;
+ * `turning` as of OstTangent. */
+OstStatus ost_system_condense(OstSystem *system, const OstTurning *turning);
 
 /* Collective. Right-hand side of the rows, P (force - K g + share × B'C e0): `force`
  * are the loads on local nodes (3 × node_count, complete on owned nodes); K g is computed only on tets that touch a
@@ -80,6 +83,10 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
  * values |B'| |C| (|B| |u| + |e0|): rounding errors of the forces are a few 1e-16 of these. */
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                              double *force, double *magnitude);
+
+/* Local. The forces, and the sum of the squared mean stresses of this rank's own tets. */
+OstStatus ost_internal_force_and_stress(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                        double *force, double *stress);
 
 /* Local. Adds the nodal forces of t times the eigenstrain, B'C e0, to `force` (3 × owned_nodes). They add up to zero.
  */

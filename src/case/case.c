@@ -65,20 +65,19 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-/* Of a rigid face, only linear theory is there. */
+/* Rotations about several axes have an order, which components alone do not tell. */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        if (constraint->kind == OST_CONSTRAIN_RIGID && c->large_rotation == OST_LARGE_ROTATION_ON)
-            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: rigid faces are solved by linear theory alone; say large_rotation: off, or hold "
-                             "or load the face without one",
-                             yaml->path, constraint->line);
-        if (constraint->kind == OST_CONSTRAIN_RIGID && c->path_steps > 0)
-            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: a rigid face has no path yet: its answer grows with its loads; leave out 'path'",
-                             yaml->path, constraint->line);
+        if (constraint->kind == OST_CONSTRAIN_RIGID && c->large_rotation == OST_LARGE_ROTATION_ON &&
+            !ost_constraint_turns(constraint))
+            return OST_RAISE(
+                yaml->ctx, OST_INVALID_INPUT,
+                "%s:%d: with large_rotation: on, a rigid face's rotation is given in all three components "
+                "or in none, or two of them are 0 and the third is free, as that of a hinge; change it, or "
+                "say large_rotation: off",
+                yaml->path, constraint->line);
     }
     return OST_SUCCESS;
 }

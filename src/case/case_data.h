@@ -83,6 +83,18 @@ static inline int ost_constraint_links(const OstConstraint *constraint)
     return constraint->kind >= OST_CONSTRAIN_RIGID;
 }
 
+/* Local. Of a rigid face: can its rotation be large? Not where a part of it is given, but for a hinge, which holds two
+ * components. */
+static inline int ost_constraint_turns(const OstConstraint *constraint)
+{
+    int given = 0, zero = 1;
+    for (int i = 0; i < 3; i++) {
+        given += constraint->turn_constrained[i] != 0;
+        zero &= constraint->rotation[i] == 0.0;
+    }
+    return given == 0 || given == 3 || (given == 2 && zero);
+}
+
 typedef enum {
     OST_LOAD_TOTAL_FORCE, /* over the selection */
     OST_LOAD_POINT_FORCE, /* on each selected vertex */
@@ -258,7 +270,7 @@ struct OstCase {
     int spring_count;
     OstSpring *springs;
     OstLargeRotation large_rotation;
-    int buckling_modes; /* asked for; 0: none */
+    int buckling_modes;         /* asked for; 0: none */
     OstFormulation formulation; /* of large rotations */
     int path_steps;             /* outputs of the path; 0: there is none, and the answer is that at t = 1 */
     double *path_times;         /* of the outputs, ascending, not negative */

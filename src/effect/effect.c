@@ -111,12 +111,6 @@ static int has_links(const OstEffectFacts *f)
     return f->rigid_faces + f->ties + f->periodic > 0;
 }
 
-/* Moved couplings are found by superposition of solves for displacements. Several load cases: is each? */
-static int is_solved_linearly(const OstEffectFacts *f)
-{
-    return f->cases > 0 ? f->linear_cases == f->cases : f->rigid_faces + f->moved_couplings > 0;
-}
-
 /* To what the load cases that are not solved linearly do, says which others there are. */
 static void except_linear(const OstEffectFacts *f, OstEffectState *state)
 {
@@ -127,7 +121,15 @@ static void except_linear(const OstEffectFacts *f, OstEffectState *state)
 }
 
 static const char free_is_linear[] = "a free body is solved linearly";
-static const char links_are_linear[] = "a body with rigid faces or moved distributing couplings is solved linearly";
+static const char faces_are_linear[] = "a rigid face part of whose rotation is given is solved linearly";
+static const char couplings_are_linear[] = "a body with moved distributing couplings is solved linearly";
+
+static const char *why_linear(const OstEffectFacts *f)
+{
+    if (f->free_body)
+        return free_is_linear;
+    return f->moved_couplings > 0 ? couplings_are_linear : f->linear_faces > 0 ? faces_are_linear : NULL;
+}
 
 /* Why the mixed form is not used, or NULL. */
 static const char *why_not_mixed(const OstEffectFacts *f)
@@ -182,10 +184,10 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     const double bytes = (264.0 + of_all) * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
-    else if (f->free_body)
-        off(state, free_is_linear);
-    else if (is_solved_linearly(f))
-        off(state, links_are_linear);
+    else if (f->cases > 0 && f->linear_cases == f->cases)
+        off(state, "each load case moves a coupling, or gives a part of a rigid face's rotation");
+    else if (f->free_body || (f->cases == 0 && why_linear(f)))
+        off(state, why_linear(f));
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
@@ -210,8 +212,8 @@ static void buckling(const OstEffectFacts *f, OstEffectState *state)
 /* The linear mesh and its matrix, and the row of each node. */
 static void linear_space(const OstEffectFacts *f, OstEffectState *state)
 {
-    if (has_links(f))
-        off(state, "with rigid, tied or periodic faces multigrid begins with the nodes themselves");
+    if (f->rigid_faces > 0)
+        off(state, "with rigid faces multigrid begins with the nodes themselves");
     else if (f->quadratic && f->multigrid)
         on(state, matrix_bytes(f) + 250.0 * f->vertices + 75.0 * f->tets + 24.0 * f->nodes,
            "quadratic tets: multigrid continues on their linear tets, or on their vertices");
@@ -407,6 +409,7 @@ static void adaptivity(const OstEffectFacts *f, OstEffectState *state)
 
 void ost_effects_find(const OstEffectFacts *facts, OstEffects *effects)
 {
+    effects->why_linear = why_linear(facts);
 #define OST_EFFECT_RULE(name, label, rule) rule(facts, &effects->state[name - OST_EFFECT_FIRST]);
     OST_EFFECT_TABLE(OST_EFFECT_RULE)
 #undef OST_EFFECT_RULE
@@ -429,17 +432,6 @@ void ost_effects_name_accounts(OstContext *ctx)
 int ost_effect_on(const OstEffects *effects, OstEffect effect)
 {
     return !effects || effects->state[effect - OST_EFFECT_FIRST].on;
-}
-
-const char *ost_effects_why_linear(const OstEffects *effects)
-{
-    static const OstEffect links[] = {OST_EFFECT_RIGID_FACE, OST_EFFECT_MOVED_COUPLING};
-    if (ost_effect_on(effects, OST_EFFECT_FREE_BODY))
-        return free_is_linear;
-    for (size_t k = 0; k < sizeof links / sizeof *links; k++)
-        if (ost_effect_on(effects, links[k]))
-            return links_are_linear;
-    return NULL;
 }
 
 const OstEffectState *ost_effect_state(const OstEffects *effects, OstEffect effect)

@@ -67,6 +67,7 @@ typedef struct OstEffectFacts {
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides, rigid_faces, ties, periodic;
+    int linear_faces; /* rigid faces that cannot turn far: a part of their rotation is given */
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     int buckling;       /* modes asked for */
@@ -78,7 +79,7 @@ typedef struct OstEffectFacts {
     int moments;                      /* loads with a moment: those, and forces at a point */
     int moved_couplings;              /* loads whose motion is given */
     int moved_components;             /* of all of these */
-    int cases, linear_cases;          /* load cases, and those of them that rigid faces or moved couplings make linear */
+    int cases, linear_cases;          /* load cases, and those of them that such faces or moved couplings make linear */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */
@@ -107,6 +108,7 @@ typedef struct OstEffectState {
 /* Every effect, on or off, with the reason. Plain data. */
 typedef struct OstEffects {
     OstEffectState state[OST_EFFECT_COUNT];
+    const char *why_linear; /* why large rotations cannot be solved for, whatever the case asks; NULL: they can */
 } OstEffects;
 
 /* Local. Applies every rule of the table; what is left out is off. */
@@ -120,9 +122,6 @@ int ost_effects_mixed(const OstEffectFacts *facts);
 
 /* Local. Gives the effects' accounts their labels in the ledger. */
 void ost_effects_name_accounts(OstContext *ctx);
-
-/* Local. Why large rotations cannot be solved for, whatever the case asks; NULL: they can. */
-const char *ost_effects_why_linear(const OstEffects *effects);
 
 /* Local. Is an effect on? With NULL every effect is, since no scene says which are needed. */
 int ost_effect_on(const OstEffects *effects, OstEffect effect);

@@ -46,6 +46,9 @@ typedef struct OstElasticity {
     /* If about_line: A at the points of a rule, where the caller keeps it; or NULL */
     const OstSimd (*stretch_at)[6];
 
+    /* The points of the tets' rule, where the caller keeps them (element.h); or NULL */
+    const struct OstKeptPoints *kept;
+
     OstSimd c[OST_MAX_POINTS][OST_ELASTICITY_COUNT];
     OstSimd m[OST_MAX_POINTS][6]; /* 0 for the tets that are not split; not set if by_mean and mixed are 0 */
 
@@ -68,6 +71,7 @@ static inline void ost_elasticity_clear(OstElasticity *elasticity)
     elasticity->by_stretch = 0;
     elasticity->about_line = 0;
     elasticity->stretch_at = NULL;
+    elasticity->kept = NULL;
     elasticity->examined = -1;
     elasticity->eigen_share = 0.0;
     elasticity->eigenstrained = 0;

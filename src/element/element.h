@@ -28,6 +28,12 @@ typedef struct OstPoint {
     OstSimd volume;                         /* positive, times the quadrature weight */
 } OstPoint;
 
+/* The points of a rule: all displacements of the same tets share them. */
+typedef struct OstKeptPoints {
+    const OstQuadrature *rule;
+    OstPoint at[OST_MAX_POINTS];
+} OstKeptPoints;
+
 typedef struct OstElement {
     int nodes;
     int nodes_per_face;
@@ -43,6 +49,10 @@ typedef struct OstElement {
      * elasticity->c[ost_elasticity_at(elasticity, q)]. */
     const OstQuadrature *(*rule)(const OstSimd *x, const OstElasticity *elasticity);
     void (*evaluate)(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point);
+
+    /* Evaluates that rule and its points, which the functions below take from elasticity->kept. NULL: they need none.
+     */
+    void (*keep)(const OstSimd *x, const OstElasticity *elasticity, OstKeptPoints *kept);
 
     /* Bit k: by itself, tet k would have the rule of fewer points. NULL: there is only one. */
     unsigned (*uniform)(const OstSimd *x, const OstElasticity *elasticity);
@@ -60,13 +70,20 @@ typedef struct OstElement {
     /* Internal forces B'C (B u - e0), K u where there is no eigenstrain, computed without K: 3 numbers a node. */
     void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
+    /* The forces, and of `means` the stress. NULL: as the two find them. */
+    void (*force_and_stress)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force,
+                             OstSimd stress[6]);
+
     /* The forces' terms by their absolute values, |B'| |C| (|B| |u| + |e0|): the scale of rounding errors in the
      * forces. */
     void (*magnitude)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude);
 
-    /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). */
+    /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). `at_nodes`: the nodes,
+     * as keep_nodes evaluates them where several displacements follow; or NULL. */
     void (*means)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
-    void (*nodal_strain)(const OstSimd *x, const OstSimd *u, OstSimd *strain);
+    void (*nodal_strain)(const OstSimd *x, const OstKeptPoints *at_nodes, const OstSimd *u, OstSimd *strain);
+
+    void (*keep_nodes)(const OstSimd *x, OstKeptPoints *at_nodes); /* NULL: none are needed */
 
     /* One tet: its volume (signed); mean gradient of three components (du_i/dx_j at 3i + j). */
     double (*volume)(const double *x);

@@ -98,6 +98,8 @@ static inline int is_uniform(const OstSimd *x, const OstElasticity *elasticity)
  * points agree to 3 %, those with 4 to 15 %. */
 static inline const OstQuadrature *rule_for(const OstSimd *x, const OstElasticity *elasticity)
 {
+    if (elasticity->kept)
+        return elasticity->kept->rule;
     return is_uniform(x, elasticity) ? &ost_tet_degree2 : &ost_tet_degree3;
 }
 
@@ -109,9 +111,26 @@ static inline void evaluate_weighted(const OstSimd *x, const OstQuadraturePoint 
     point->volume *= at->weight;
 }
 
+/* Point q of the rule: the one that is kept, or evaluated into `room`. */
+static inline const OstPoint *point_of(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+                                       int q, OstPoint *room)
+{
+    if (elasticity->kept)
+        return &elasticity->kept->at[q];
+    evaluate_weighted(x, &rule->point[q], room);
+    return room;
+}
+
 OST_KERNEL static void tet10_evaluate(const OstSimd *x, const OstQuadraturePoint *at, OstPoint *point)
 {
     evaluate_weighted(x, at, point);
+}
+
+OST_KERNEL static void tet10_keep(const OstSimd *x, const OstElasticity *elasticity, OstKeptPoints *kept)
+{
+    kept->rule = rule_for(x, elasticity);
+    for (int q = 0; q < kept->rule->count; q++)
+        evaluate_weighted(x, &kept->rule->point[q], &kept->at[q]);
 }
 
 static void tet10_places(const OstSimd *x, OstSimd *places)
@@ -140,16 +159,16 @@ static inline void integrate_mode(const OstSimd *x, const OstElasticity *elastic
     memset(mode, 0, sizeof *mode);
     for (int q = 0; q < rule->count; q++) {
         const int at = ost_elasticity_at(elasticity, q);
-        OstPoint point;
-        evaluate_weighted(x, &rule->point[q], &point);
-        mode->volume += point.volume;
+        OstPoint room;
+        const OstPoint *point = point_of(x, elasticity, rule, q, &room);
+        mode->volume += point->volume;
         for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
-            mode->eigen += point.volume * elasticity->m[at][p] * elasticity->e0[at][p];
+            mode->eigen += point->volume * elasticity->m[at][p] * elasticity->e0[at][p];
         for (int a = 0; a < NODES; a++) {
             OstSimd of_node[3];
-            ost_force_of_stress(point.gradient[a], elasticity->m[at], of_node);
+            ost_force_of_stress(point->gradient[a], elasticity->m[at], of_node);
             for (int i = 0; i < 3; i++)
-                mode->columns[3 * a + i] += point.volume * of_node[i];
+                mode->columns[3 * a + i] += point->volume * of_node[i];
         }
     }
 }
@@ -270,19 +289,21 @@ static inline void mean_of_mode(const MeanMode *mode, const OstSimd *u, OstSimd 
     *mean /= mode->volume;
 }
 
-/* B'C (B u - e0) with the softer C where it is split. */
-static inline void sum_forces(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+/* B'C (B u - e0) with the softer C where it is split, and the mean of its stress; `mean` may be NULL. */
+static inline void sum_forces(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force,
+                              OstSimd *mean)
 {
     const OstQuadrature *rule = rule_for(x, elasticity);
+    OstSimd sum[6] = {{0}}, volume = {0};
     memset(force, 0, NUMBERS * sizeof *force);
     for (int q = 0; q < rule->count; q++) {
-        OstPoint point;
+        OstPoint room;
+        const OstPoint *point = point_of(x, elasticity, rule, q, &room);
         OstSimd strain[6];
         OstSimd elastic[6];
         OstSimd stress[6];
         const int at = ost_elasticity_at(elasticity, q);
-        evaluate_weighted(x, &rule->point[q], &point);
-        strain_at(&point, u, strain);
+        strain_at(point, u, strain);
         ost_elastic_strain(elasticity, at, strain, elastic);
         ost_simd_stress(elasticity->c[at], elastic, stress);
         if (elasticity->mixed) {
@@ -290,20 +311,25 @@ static inline void sum_forces(const OstSimd *x, const OstElasticity *elasticity,
             ost_pressure_at(elasticity, rule->point[q].at, &pressure);
             add_pressure(elasticity, at, &pressure, stress);
         }
-        for (int p = 0; p < 6; p++)
-            stress[p] *= point.volume;
-        add_force(&point, stress, force);
+        volume += point->volume;
+        for (int p = 0; p < 6; p++) {
+            stress[p] *= point->volume;
+            sum[p] += stress[p];
+        }
+        add_force(point, stress, force);
     }
+    for (int p = 0; p < 6 && mean; p++)
+        mean[p] = sum[p] / volume;
 }
 
 OST_KERNEL static void tet10_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
 {
     MeanMode mode;
     OstSimd mean;
-    if (is_uniform(x, elasticity) && !elasticity->mixed)
+    if (rule_for(x, elasticity) == &ost_tet_degree2 && !elasticity->mixed)
         ost_tet10_straight_force(x, elasticity, u, force);
     else
-        sum_forces(x, elasticity, u, force);
+        sum_forces(x, elasticity, u, force, NULL);
     if (!elasticity->by_mean)
         return;
     integrate_mode(x, elasticity, &mode);
@@ -337,7 +363,7 @@ OST_KERNEL static void tet10_magnitude(const OstSimd *x, const OstElasticity *el
         OstSimd c[OST_ELASTICITY_COUNT];
         OstSimd strain[6] = {{0}};
         OstSimd stress[6];
-        evaluate_weighted(x, &rule->point[q], &point);
+        point = *point_of(x, elasticity, rule, q, &point);
         for (int a = 0; a < NODES; a++) {
             for (int i = 0; i < 3; i++)
                 ost_simd_absolute(&point.gradient[a][i]);
@@ -392,15 +418,15 @@ static inline void sum_means(const OstSimd *x, const OstElasticity *elasticity, 
     const OstQuadrature *rule = rule_for(x, elasticity);
     OstSimd volume = {0};
     for (int q = 0; q < rule->count; q++) {
-        OstPoint point;
+        OstPoint room;
+        const OstPoint *point = point_of(x, elasticity, rule, q, &room);
         OstSimd strain[6];
-        evaluate_weighted(x, &rule->point[q], &point);
-        strain_at(&point, u, strain);
-        volume += point.volume;
+        strain_at(point, u, strain);
+        volume += point->volume;
         OstSimd pressure = {0};
         if (elasticity->mixed)
             ost_pressure_at(elasticity, rule->point[q].at, &pressure);
-        add_means(&point, elasticity, ost_elasticity_at(elasticity, q), &pressure, strain, means);
+        add_means(point, elasticity, ost_elasticity_at(elasticity, q), &pressure, strain, means);
     }
     for (int p = 0; p < 6; p++) {
         means->strain[p] /= volume;
@@ -419,21 +445,48 @@ OST_KERNEL static void tet10_means(const OstSimd *x, const OstElasticity *elasti
         integrate_mode(x, elasticity, &mode);
         mean_of_mode(&mode, u, &means->stiff);
     }
-    if (is_uniform(x, elasticity) && !elasticity->mixed)
+    if (rule_for(x, elasticity) == &ost_tet_degree2 && !elasticity->mixed)
         ost_tet10_straight_means(x, elasticity, u, means);
     else
         sum_means(x, elasticity, u, means);
 }
 
-OST_KERNEL static void tet10_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strain)
+OST_KERNEL static void tet10_force_and_stress(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
+                                              OstSimd *force, OstSimd stress[6])
+{
+    OstMeans means;
+    if (!elasticity->by_mean && rule_for(x, elasticity) != &ost_tet_degree2) {
+        sum_forces(x, elasticity, u, force, stress);
+        return;
+    }
+    tet10_force(x, elasticity, u, force);
+    tet10_means(x, elasticity, u, &means);
+    memcpy(stress, means.stress, sizeof means.stress);
+}
+
+/* The place of a node. */
+static inline void evaluate_node(const OstSimd *x, int a, OstPoint *point)
+{
+    double at[4] = {0.0};
+    at[ost_tet10_ends[a][0]] += 0.5;
+    at[ost_tet10_ends[a][1]] += 0.5;
+    evaluate(x, at, point);
+}
+
+OST_KERNEL static void tet10_keep_nodes(const OstSimd *x, OstKeptPoints *at_nodes)
+{
+    for (int a = 0; a < NODES; a++)
+        evaluate_node(x, a, &at_nodes->at[a]);
+}
+
+OST_KERNEL static void tet10_nodal_strain(const OstSimd *x, const OstKeptPoints *at_nodes, const OstSimd *u,
+                                          OstSimd *strain)
 {
     for (int a = 0; a < NODES; a++) {
-        double at[4] = {0.0};
-        OstPoint point;
-        at[ost_tet10_ends[a][0]] += 0.5;
-        at[ost_tet10_ends[a][1]] += 0.5;
-        evaluate(x, at, &point);
-        strain_at(&point, u, strain + 6 * a);
+        OstPoint room;
+        if (!at_nodes)
+            evaluate_node(x, a, &room);
+        strain_at(at_nodes ? &at_nodes->at[a] : &room, u, strain + 6 * a);
     }
 }
 
@@ -537,12 +590,15 @@ const OstElement ost_tet10 = {
     .rule = rule_for,
     .uniform = find_uniform,
     .evaluate = tet10_evaluate,
+    .keep = tet10_keep,
     .stiffness = tet10_stiffness,
     .coupling = tet10_coupling,
     .force = tet10_force,
+    .force_and_stress = tet10_force_and_stress,
     .magnitude = tet10_magnitude,
     .means = tet10_means,
     .nodal_strain = tet10_nodal_strain,
+    .keep_nodes = tet10_keep_nodes,
     .volume = tet10_volume,
     .gradient = tet10_gradient,
     .laplacian = tet10_laplacian,

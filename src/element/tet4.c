@@ -216,8 +216,9 @@ OST_KERNEL static void tet4_means(const OstSimd *x, const OstElasticity *elastic
     }
 }
 
-static void tet4_nodal_strain(const OstSimd *x, const OstSimd *u, OstSimd *strain)
+static void tet4_nodal_strain(const OstSimd *x, const OstKeptPoints *at_nodes, const OstSimd *u, OstSimd *strain)
 {
+    (void)at_nodes;
     OstSimd determinant;
     tet4_strain(x, u, strain, &determinant);
     for (int n = 6; n < 24; n++)

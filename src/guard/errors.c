@@ -99,16 +99,6 @@ static OstStatus add_eigen(const OstProblem *problem, double share, double *sums
     return OST_SUCCESS;
 }
 
-/* Stresses of the answer, of its error, and of the eigenstrain alone. */
-static OstStatus add_all_stresses(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                                  const double *error, double *sums)
-{
-    const double share = ost_problem_eigen_share(problem, 1.0);
-    ost_visit_means(problem->mesh, problem->field, share, displacement, add_stresses, &sums[STRESS]);
-    ost_visit_means(problem->mesh, of_error->field, 0.0, error, add_stresses, &sums[STRESS_ERROR]);
-    return add_eigen(problem, share, sums);
-}
-
 /* Collective. About the squared displacement of all nodes under this sum of squared eigenstrains of the tets. */
 static OstStatus free_displacement(const OstMesh *mesh, double squares, double *displacement)
 {
@@ -223,17 +213,17 @@ done:
 }
 
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                           const double *internal, const double *error, OstErrors *errors)
+                           const double *internal, double stress, const double *error, OstErrors *errors)
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
     double *wrong = NULL, *load = NULL, *straining = NULL;
-    double sums[SUMS] = {0.0}, swollen = 0.0, pressed = 0.0;
+    double sums[SUMS] = {[STRESS] = stress}, swollen = 0.0, pressed = 0.0;
     OstStatus status = OST_NEW(ctx, &wrong, n);
     OST_THEN(OST_NEW(ctx, &load, n));
     OST_THEN(OST_NEW(ctx, &straining, n));
-    OST_THEN(ost_problem_force(of_error, 0.0, error, wrong));
-    OST_THEN(add_all_stresses(problem, of_error, displacement, error, sums));
+    OST_THEN(ost_problem_force_and_stress(of_error, 0.0, error, wrong, &sums[STRESS_ERROR]));
+    OST_THEN(add_eigen(problem, ost_problem_eigen_share(problem, 1.0), sums));
     if (status == OST_SUCCESS) {
         ost_problem_load(problem, 1.0, NULL, load);
         memcpy(straining, load, n * sizeof *load);

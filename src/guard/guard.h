@@ -51,11 +51,11 @@ typedef struct OstErrors {
     int asked;           /* is the residual asked for their reason, not rounding? */
 } OstErrors;
 
-/* Collective. The errors of a displacement, whose ost_problem_force is `internal`, that is off by `error` (both 3 ×
- * node_count, ghosts included). Of a mixed form `problem` has the answer's pressure, and `of_error` that of the error;
- * else they are the same. */
+/* Collective. The errors of a displacement that is off by `error` (both 3 × node_count, ghosts included), of which
+ * ost_problem_force_and_stress finds `internal` and `stress`. Of a mixed form `problem` has the answer's pressure, and
+ * `of_error` that of the error; else they are the same. */
 OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error, const double *displacement,
-                           const double *internal, const double *error, OstErrors *errors);
+                           const double *internal, double stress, const double *error, OstErrors *errors);
 
 /* Collective. The same where rotations are large, at pseudo-time t: `internal` and `load` are the forces at the
  * displacement, 3 × owned_nodes. Not of a mixed form. */

@@ -83,14 +83,16 @@ OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *e
 {
     const OstElasticity *elasticity = &batch->elasticity;
     const OstQuadrature *rule = element->rule(batch->x, elasticity);
+    OstPoint room;
     *work = (OstSimd){0};
     for (int q = 0; q < rule->count; q++) {
-        OstPoint point;
+        const OstPoint *point = elasticity->kept ? &elasticity->kept->at[q] : &room;
         OstSimd gradient[9], stress[6];
-        element->evaluate(batch->x, &rule->point[q], &point);
-        ost_displacement_gradient(element->nodes, &point, u, gradient);
+        if (!elasticity->kept)
+            element->evaluate(batch->x, &rule->point[q], &room);
+        ost_displacement_gradient(element->nodes, point, u, gradient);
         ost_point_stress(elasticity, &rule->point[q], ost_elasticity_at(elasticity, q), gradient, means, stress);
-        add_stress_work(&point.volume, gradient, stress, work);
+        add_stress_work(&point->volume, gradient, stress, work);
     }
 }
 

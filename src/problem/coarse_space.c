@@ -21,16 +21,16 @@ void ost_linear_space_destroy(OstLinearSpace **space)
     OST_FREE(*space);
 }
 
-/* Is any vertex of the body unconstrained in some direction? */
+/* Does any vertex of the body have unknowns of its own? */
 static OstStatus has_free_vertex(const OstLinearSpace *space, int *has)
 {
     const OstMesh *mesh = space->mesh;
     OstContext *ctx = mesh->ctx;
+    const OstSupports *supports = space->supports;
     *has = 0;
-    for (OstLocal vertex = 0; vertex < mesh->owned_nodes && !*has; vertex++) {
-        const OstLocal index = space->supports->index[vertex];
-        *has = index < 0 || space->supports->support[index].constrained < 3;
-    }
+    for (OstLocal vertex = 0; supports && vertex < mesh->owned_nodes && !*has; vertex++)
+        *has = !ost_link_of(supports->links, vertex) &&
+               (supports->index[vertex] < 0 || supports->support[supports->index[vertex]].constrained < 3);
     return ost_max_ints(ctx, 1, has);
 }
 
@@ -52,7 +52,7 @@ static OstStatus take_vertices(OstLinearSpace *space, const OstSystem *quadratic
     OST_TRY(ost_mesh_linear(quadratic->mesh, &space->mesh, &space->node_of_vertex));
     OstStatus status =
         ost_supports_on_vertices(quadratic->supports, space->mesh, space->node_of_vertex, &space->supports);
-    if (status == OST_SUCCESS && quadratic->supports->spring)
+    if (status == OST_SUCCESS && space->supports && quadratic->supports->spring)
         status = ost_springs_on_vertices(quadratic->supports, space->node_of_vertex, space->supports);
     return ost_agree(quadratic->ctx, status);
 }

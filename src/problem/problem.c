@@ -27,6 +27,7 @@ void ost_problem_destroy(OstProblem **problem)
     ost_supports_destroy(&(*problem)->supports);
     OST_FREE((*problem)->driven);
     ost_follower_destroy(&(*problem)->follower);
+    OST_FREE((*problem)->lever);
     OST_FREE((*problem)->force);
     OST_FREE(*problem);
 }
@@ -232,6 +233,7 @@ OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem)
     OST_TRY_DONE(ost_scene_loads(scene, 0, made->supports, made->force, &made->follower));
     OST_TRY_DONE(ost_agree(ctx, OST_RESIZE(ctx, &made->force, 3 * (size_t)scene->mesh->owned_nodes)));
     OST_TRY_DONE(make_timed_of_scene(scene, made));
+    OST_TRY_DONE(ost_problem_find_levers(made));
     OST_TRY_DONE(ost_follower_conserves(made->follower, made->supports, &made->conservative));
 done:
     if (status != OST_SUCCESS)
@@ -297,6 +299,8 @@ void ost_problem_load(const OstProblem *problem, double t, const double *u, doub
     memset(force, 0, 3 * (size_t)problem->mesh->owned_nodes * sizeof *force);
     for (int k = 0; k < ost_problem_functions(problem); k++)
         ost_problem_add_load(problem, k, ost_problem_factor(problem, k, t), shape, force);
+    if (shape)
+        ost_problem_add_levers(problem, t, force);
 }
 
 OstStatus ost_problem_load_work(const OstProblem *problem, double t, const double *u, double *work)
@@ -304,7 +308,9 @@ OstStatus ost_problem_load_work(const OstProblem *problem, double t, const doubl
     *work = 0.0;
     for (int k = 0; k < ost_problem_functions(problem); k++)
         *work += ost_problem_work(problem, k, ost_problem_factor(problem, k, t), u);
-    return ost_sum(problem->ctx, 1, work);
+    OST_TRY(ost_sum(problem->ctx, 1, work));
+    *work += ost_problem_lever_work(problem, t);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_problem_energy(const OstProblem *problem, double t, const double *u, double *energy)
@@ -322,6 +328,16 @@ OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u
 {
     const double grown = ost_problem_eigen_share(problem, t);
     OST_TRY(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, grown, u, force, NULL));
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, -1.0, u, force);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
+                                       double *stress)
+{
+    const double grown = ost_problem_eigen_share(problem, t);
+    OST_TRY(ost_internal_force_and_stress(problem->mesh, problem->field, grown, u, force, stress));
     if (problem->supports->spring)
         ost_spring_force(problem->supports, -1.0, u, force);
     return OST_SUCCESS;
@@ -354,24 +370,29 @@ OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double
     return OST_SUCCESS;
 }
 
-/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
+/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. Where
+ * rigid faces turn, stress is that at u: with one from `from` on, tets beside them take more iterations. */
 static OstStatus fill(const OstProblem *problem, double t, const double *u, const double *from, int definite)
 {
+    const int turns = ost_problem_has_turning(problem);
     OstTangent tangent = {.formulation = problem->formulation,
                           .t = ost_problem_eigen_share(problem, t),
                           .u = u,
-                          .from = from,
+                          .from = turns ? NULL : from,
                           .definite = definite};
     double *factor = NULL;
+    OstTurning turning = {0};
     if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
         return ost_system_fill_tangent(problem->system, problem->field, NULL);
+    OstStatus status = ost_problem_find_turning(problem, t, u, definite, &turning);
+    tangent.turning = &turning;
     if (problem->follower && !definite) {
-        OST_TRY(factors_at(problem, t, &factor));
+        OST_THEN(factors_at(problem, t, &factor));
         tangent.follower = problem->follower;
         tangent.factor = factor;
     }
-    const OstStatus status = ost_system_fill_tangent(problem->system, problem->field, &tangent);
-    OST_FREE(factor);
+    OST_THEN(ost_system_fill_tangent(problem->system, problem->field, &tangent));
+    OST_FREE(factor, turning.faces, turning.levers);
     return status;
 }
 
@@ -381,6 +402,7 @@ static OstStatus make_stiffness(OstProblem *problem, double t, const double *u, 
 {
     if (!problem->system)
         OST_TRY(make_pattern(problem));
+    OST_TRY(ost_problem_turn(problem, problem->formulation == OST_FORMULATION_LINEAR ? NULL : u));
     OstBlockMatrix *matrix = problem->system->matrix;
     const int fills = problem->system->block_of_tet || !(problem->filled && ost_problem_is_linear(problem));
     if (fills || stiffness)

@@ -27,9 +27,10 @@ struct OstProblem {
     double *driven;            /* likewise: of it, that which moves distributing couplings; NULL before it is known */
     int timed_count;           /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
-    OstFollower *follower;        /* pressures that follow the surface, of all functions; NULL: there are none */
-    int eigen_function;           /* the function of time that eigenstrains follow */
-    int conservative;             /* is the load the gradient of a work function? */
+    OstFollower *follower; /* pressures that follow the surface, of all functions; NULL: there are none */
+    double *lever;         /* 9 for each function and rigid face: of forces at a point of it (turning.c), or NULL */
+    int eigen_function;    /* the function of time that eigenstrains follow */
+    int conservative;      /* is the load the gradient of a work function? */
     OstPressureSpace *pressures;  /* of the mixed form; NULL without one */
     OstCoupling *coupling;        /* theirs with the system's unknowns, as long as there is one */
     OstMaterialField own;         /* the field, where the problem has changed it (problem/mixed.c) */
@@ -87,6 +88,10 @@ double ost_problem_factor(const OstProblem *problem, int function, double t);
 /* Local. What of the eigenstrain acts at t. */
 double ost_problem_eigen_share(const OstProblem *problem, double t);
 
+/* Local. ost_problem_force by linear theory, and the sum of the squared mean stresses of this rank's own tets. */
+OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
+                                       double *stress);
+
 /* Local. Adds factor × the load of one function to `force` (3 × owned_nodes), with pressures on the surface as u has
  * moved it (NULL: undeformed). */
 void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force);
@@ -100,6 +105,32 @@ OstStatus ost_problem_function_right_hand_side(const OstProblem *problem, int fu
 
 /* Collective. Its displacement P v + g of every local node. */
 OstStatus ost_problem_function_displacement(const OstProblem *problem, int function, const double *v, double *u);
+
+/* Rigid faces that turn (turning.c, assembly/links/rigid_faces.h). A force at a point of such a face follows it: its
+ * work is (R - I):N beside that of the dead forces that it is spread as, N = force arm' less the same of these. */
+
+/* Collective, once the loads are there: finds N. */
+OstStatus ost_problem_find_levers(OstProblem *problem);
+
+/* Collective. Takes the rigid faces, and the weights of nodes that follow these or levers, to a displacement (NULL:
+ * none), at which loads, rows of forces and displacements of rows are then meant. */
+OstStatus ost_problem_turn(const OstProblem *problem, const double *u);
+
+/* Local. Adds the forces at owned nodes, as the faces are turned; and returns their work on all ranks. */
+void ost_problem_add_levers(const OstProblem *problem, double t, double *force);
+double ost_problem_lever_work(const OstProblem *problem, double t);
+
+/* Collective. Is there a rigid face whose rotation is an unknown? */
+int ost_problem_has_turning(const OstProblem *problem);
+
+/* Collective. What forces at the arms of such faces, and of levers, add to the stiffness, made positive semidefinite if
+ * `definite`; once links are turned to u. The arrays of `turning` are the caller's to free, NULL where there is none.
+ */
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
+                                   OstTurning *turning);
+
+/* Collective. Puts what is prescribed at t into a displacement, the rest of which is kept; v has room for 3 × rows. */
+OstStatus ost_problem_prescribe(const OstProblem *problem, double t, double *v, double *u);
 
 /* The mixed form (problem/mixed.c): what acts on its pressures, and their state. */
 

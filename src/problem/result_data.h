@@ -39,6 +39,7 @@ typedef struct OstInterestError {
     double size;           /* of a reaction: the sum of the lengths of its terms */
     double *share;         /* owned_tets: each one's share of it, where a mesh should be refined for it */
     double sum;            /* of the shares: |error|, or more where parts of it cancel */
+    int has_no_answer;     /* could the adjoint problem not be solved? */
 } OstInterestError;
 
 /* Of a watched reaction, or mean stress, whose adjoint problem is solved (solve/reactions/). */

@@ -20,7 +20,7 @@ static const double identity[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 /* Of the body's diagonal: how far a tied vertex may be from its faces. */
 static const double tied_within = 1e-3;
 
-/* Of a face: a vertex farther away is the end of a lever, which turns by its weights as in linear theory. */
+/* Of a face: a vertex farther away is the end of a lever, whose weights change as it turns. */
 static const double most_gap = 1e-6;
 
 /* A weight below this is rounding. */
@@ -47,28 +47,39 @@ static OstStatus find_diagonal(const OstMesh *mesh, double *diagonal)
 
 /* --- rigid faces --- */
 
-/* The two lowest of the selected nodes, over all ranks, and a length of the size of their arms. */
-static OstStatus find_carriers(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, const double point[3],
-                               OstGlobal lowest[2], double *length)
+/* The two lowest of the selected nodes, over all ranks. */
+static OstStatus find_carriers(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, OstGlobal lowest[2])
 {
-    OstContext *ctx = mesh->ctx;
-    double sums[2] = {0.0};
     for (int k = 0; k < 2; k++) {
         lowest[k] = INT64_MAX;
         for (OstLocal i = 0; i < count; i++)
             if (nodes[i] < mesh->owned_nodes && mesh->node_number[nodes[i]] < lowest[k] &&
                 (k == 0 || mesh->node_number[nodes[i]] > lowest[0]))
                 lowest[k] = mesh->node_number[nodes[i]];
-        OST_TRY(ost_min_numbers(ctx, 1, &lowest[k]));
+        OST_TRY(ost_min_numbers(mesh->ctx, 1, &lowest[k]));
     }
+    return OST_SUCCESS;
+}
+
+/* The face's point and a length of the size of the arms about it. Where nothing is given of its displacement, its
+ * middle is as good a point, and nodes beside the face move nearly as it does where it turns far in one step. */
+static OstStatus find_point(const OstMesh *mesh, OstLocal count, const OstLocal *nodes, OstRigidFace *face)
+{
+    const int is_given = face->constrained[0] || face->constrained[1] || face->constrained[2];
+    double sums[5] = {0.0};
     for (OstLocal i = 0; i < count; i++)
         for (size_t c = 0; c < 3 && nodes[i] < mesh->owned_nodes; c++) {
-            const double arm = mesh->coordinates[3 * (size_t)nodes[i] + c] - point[c];
-            sums[0] += arm * arm;
-            sums[1] += 1.0 / 3.0;
+            const double arm = mesh->coordinates[3 * (size_t)nodes[i] + c] - face->point[c];
+            sums[c] += arm;
+            sums[3] += arm * arm;
+            sums[4] += 1.0 / 3.0;
         }
-    OST_TRY(ost_sum(ctx, 2, sums));
-    *length = sums[0] > 0.0 ? sqrt(sums[0] / sums[1]) : 1.0;
+    OST_TRY(ost_sum(mesh->ctx, 5, sums));
+    for (int c = 0; c < 3 && !is_given; c++) {
+        face->point[c] += sums[c] / sums[4];
+        sums[3] -= sums[c] * sums[c] / sums[4];
+    }
+    face->length = sums[3] > 0.0 ? sqrt(sums[3] / sums[4]) : 1.0;
     return OST_SUCCESS;
 }
 
@@ -87,28 +98,21 @@ static OstStatus check_extent(const OstMesh *mesh, OstLocal count, const OstLoca
 
 /* W of one node for the point's displacement, and for its rotation times `length`; what is prescribed goes to the
  * offset. */
-static void make_weights(const OstConstraint *constraint, const double arm[3], double length, double factor,
-                         double weights[2][9], double offset[3])
+static void make_weights(const OstRigidFace *face, const double arm[3], double weights[2][9], double offset[3])
 {
-    const double turned[3] = {factor * constraint->rotation[0], factor * constraint->rotation[1],
-                              factor * constraint->rotation[2]};
-    ost_cross3(turned, arm, offset);
+    ost_cross3(face->given + 3, arm, offset);
     memset(weights, 0, 2 * sizeof *weights);
+    ost_rigid_face_weight(face, arm, weights[1]);
     for (int k = 0; k < 3; k++) {
-        const double axis[3] = {k == 0, k == 1, k == 2};
-        double moved[3];
-        ost_cross3(axis, arm, moved);
-        offset[k] += factor * constraint->displacement[k];
-        weights[0][4 * k] = constraint->constrained[k] ? 0.0 : 1.0;
-        for (int i = 0; i < 3; i++)
-            weights[1][3 * i + k] = constraint->turn_constrained[k] ? 0.0 : moved[i] / length;
+        offset[k] += face->given[k];
+        weights[0][4 * k] = face->constrained[k] ? 0.0 : 1.0;
     }
 }
 
-static OstStatus link_face(const OstConstraint *constraint, const OstRigidFace *face, double factor, OstLocal count,
-                           const OstLocal *nodes, OstLinks *links)
+static OstStatus link_face(const OstRigidFace *face, OstLocal count, const OstLocal *nodes, OstLinks *links)
 {
     const OstMesh *mesh = links->mesh;
+    links->of_face = links->face_count;
     for (OstLocal i = 0; i < count; i++) {
         const double *x = mesh->coordinates + 3 * (size_t)nodes[i];
         const double arm[3] = {x[0] - face->point[0], x[1] - face->point[1], x[2] - face->point[2]};
@@ -117,7 +121,7 @@ static OstStatus link_face(const OstConstraint *constraint, const OstRigidFace *
         int leaders = 0;
         if (nodes[i] >= mesh->owned_nodes)
             continue;
-        make_weights(constraint, arm, face->length, factor, weights, offset);
+        make_weights(face, arm, weights, offset);
         for (int k = 0; k < 2; k++) {
             if (face->carrier[k] < 0)
                 continue;
@@ -143,15 +147,21 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
     memcpy(face.point, constraint->point, sizeof face.point);
     memcpy(face.constrained, constraint->constrained, sizeof constraint->constrained);
     memcpy(face.constrained + 3, constraint->turn_constrained, sizeof constraint->turn_constrained);
+    for (int k = 0; k < 3; k++) {
+        face.given[k] = factor * constraint->displacement[k];
+        face.given[3 + k] = factor * constraint->rotation[k];
+    }
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &constraint->on, &count, &nodes));
     OstStatus status = check_extent(scene->mesh, count, nodes);
-    OST_THEN(find_carriers(scene->mesh, count, nodes, face.point, lowest, &face.length));
+    OST_THEN(find_carriers(scene->mesh, count, nodes, lowest));
+    OST_THEN(find_point(scene->mesh, count, nodes, &face));
     if (status == OST_SUCCESS) {
         face.first = lowest[0];
         face.carrier[0] = all_of(constraint->constrained) ? -1 : lowest[0];
         face.carrier[1] = all_of(constraint->turn_constrained) ? -1 : lowest[1];
-        status = link_face(constraint, &face, factor, count, nodes, links);
+        status = link_face(&face, count, nodes, links);
         OST_THEN(ost_links_add_face(links, &face));
+        links->of_face = -1;
         status = ost_agree(scene->ctx, status);
     }
     OST_FREE(nodes);
@@ -159,6 +169,31 @@ static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constrain
 }
 
 /* --- tied faces --- */
+
+static double largest_of(const double weight[9])
+{
+    double largest = 0.0;
+    for (int i = 0; i < 9; i++)
+        largest = fmax(largest, fabs(weight[i]));
+    return largest;
+}
+
+/* Each vertex of a quadratic face takes half of what the middles of its sides have. */
+static void add_corners(const OstFacePoint *found, OstLinks *links)
+{
+    enum { CORNERS = 3 };
+    OstGlobal corner[CORNERS];
+    double weight[CORNERS][9];
+    int count = 0;
+    for (int v = 0; v < CORNERS; v++) {
+        for (int i = 0; i < 9; i++)
+            weight[count][i] = found->weight[v][i] +
+                               0.5 * (found->weight[CORNERS + v][i] + found->weight[CORNERS + (v + 2) % CORNERS][i]);
+        if (largest_of(weight[count]) >= no_weight)
+            corner[count++] = found->number[v];
+    }
+    ost_links_add_corners(links, count, corner, (const double(*)[9])weight);
+}
 
 /* Counts the node in *follows where it follows a face. */
 static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, double within, OstLocal node,
@@ -168,6 +203,7 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
     const double *x = scene->mesh->coordinates + 3 * (size_t)node;
     OstFacePoint found;
     OstLeader leader[OST_MOST_LEADERS];
+    OstLever lever = {.node = node};
     int leaders = 0;
     ost_face_search_nearest(search, x, &found);
     if (!(found.distance <= within))
@@ -179,24 +215,21 @@ static OstStatus tie_node(const OstScene *scene, const OstFaceSearch *search, do
     for (int k = 0; k < found.count; k++) {
         if (found.number[k] == scene->mesh->node_number[node]) /* on both sides already */
             return OST_SUCCESS;
-        double largest = 0.0;
-        for (int i = 0; i < 9; i++)
-            largest = fmax(largest, fabs(found.weight[k][i]));
-        if (largest < no_weight)
+        if (largest_of(found.weight[k]) < no_weight)
             continue;
         leader[leaders].number = found.number[k];
+        lever.share[leaders] = found.share[k];
+        memcpy(lever.slope[leaders], found.slope[k], sizeof found.slope[k]);
         memcpy(leader[leaders++].weight, found.weight[k], sizeof found.weight[k]);
     }
     (*follows)++;
-    links->gaps |= found.gap > most_gap;
-    if (found.gap > most_gap && scene->c->large_rotation == OST_LARGE_ROTATION_ON &&
-        ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION))
-        return OST_RAISE(
-            scene->ctx, OST_INVALID_INPUT,
-            "vertex %lld at (%g, %g, %g) is %.3g away from the faces that it is tied to; across a gap a tie "
-            "turns by linear theory alone: let the faces meet, or say large_rotation: off",
-            (long long)ost_mesh_node_number(scene->mesh, node), x[0], x[1], x[2], found.distance);
-    return ost_links_add(links, node, leaders, leader, x, nothing);
+    lever.across = found.across;
+    OST_TRY(ost_links_add(links, node, leaders, leader, x, nothing));
+    if (found.gap > most_gap)
+        return ost_links_add_lever(links, &lever);
+    if (found.count == OST_MOST_LEADERS)
+        add_corners(&found, links);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_tie(const OstScene *scene, const OstConstraint *constraint, OstLinks *links)
@@ -264,7 +297,10 @@ static OstStatus link_periodic(const OstPeriods *periods, const OstConstraint *c
     ost_apply3(strain, away, offset);
     OstLeader leader = {.number = leads->number};
     memcpy(leader.weight, identity, sizeof identity);
-    return ost_links_add(links, node, 1, &leader, leads->at, offset);
+    OST_TRY(ost_links_add(links, node, 1, &leader, leads->at, offset));
+    if (mesh->nodes_per_tet == 10)
+        ost_links_add_corners(links, 1, &leader.number, (const double(*)[9]) & leader.weight);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_periodic(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)

@@ -125,9 +125,9 @@ static void gather_at_nodes(const OstResult *result, const OstElement *element, 
                           ost_tet_nodes.point, places);
 }
 
-/* Stress at the nodes of a batch's tets, 6 numbers a node. */
+/* Stress at the nodes of a batch's tets, 6 numbers a node. `kept`: the nodes, evaluated; or NULL. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
-                            const OstElasticity *at_nodes, OstSimd *stress)
+                            const OstElasticity *at_nodes, const OstKeptPoints *kept, OstSimd *stress)
 {
     OstSimd u[3 * OST_MAX_TET_NODES];
     OstSimd strain[6 * OST_MAX_TET_NODES];
@@ -138,7 +138,7 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
                                         stress);
         return;
     }
-    element->nodal_strain(batch->x, u, strain);
+    element->nodal_strain(batch->x, kept, u, strain);
     if (at_nodes->by_mean)
         element->means(batch->x, &batch->elasticity, u, &means);
     for (int a = 0; a < element->nodes; a++) {
@@ -168,7 +168,7 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
     batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
     ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
     gather_at_nodes(result, element, &batch, &at_nodes);
-    stress_of_batch(result, element, &batch, &at_nodes, all);
+    stress_of_batch(result, element, &batch, &at_nodes, NULL, all);
     for (int n = 0; n < 6 * element->nodes; n++)
         stress[n] = all[n][0];
 }
@@ -337,6 +337,8 @@ static void average(int count, void *const *request, const Around *around)
     const OstResult *first_result = ((const Request *)request[0])->result;
     const OstMesh *mesh = first_result->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
+    const int keeps = count > 1 && element->keep_nodes && first_result->formulation == OST_FORMULATION_LINEAR;
+    OstKeptPoints kept;
     OstBatch batch;
     OstElasticity at_nodes;
     ost_elasticity_clear(&batch.elasticity);
@@ -350,10 +352,12 @@ static void average(int count, void *const *request, const Around *around)
             ost_batch_keep_alike(&batch, element, mesh, first_result->field);
         gather_at_nodes(first_result, element, &batch, &at_nodes);
         add_volumes(mesh, element->nodes, &batch, around, share);
+        if (keeps)
+            element->keep_nodes(batch.x, &kept);
         for (int k = 0; k < count; k++) {
             const Request *one = request[k];
             OstSimd stress[6 * OST_MAX_TET_NODES];
-            stress_of_batch(one->result, element, &batch, &at_nodes, stress);
+            stress_of_batch(one->result, element, &batch, &at_nodes, keeps ? &kept : NULL, stress);
             add_batch(element->nodes, &batch, share, stress, one->stress);
         }
     }

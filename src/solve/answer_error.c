@@ -110,46 +110,6 @@ static OstProblem at_answer(const OstAnalysis *analysis, const OstResult *result
     return state;
 }
 
-/* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
- * squared error in the norm of the energy. The mesh makes none of a reaction that statics gives. */
-static OstStatus estimate_interest(const OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
-{
-    const OstProblem state = at_answer(analysis, result);
-    const OstWatch *watch = &state.scene->c->watches[state.scene->c->interest - 1];
-    const OstLinear *linear = analysis->work;
-    OstInterestError *found = &result->interest;
-    OstWatchedReaction by_statics = {0};
-    OST_TRY(ost_reactions_by_statics(&state, watch, t, result->displacement, &by_statics));
-    OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &found->share, result->mesh->owned_tets)));
-    const double part = by_statics.known ? 0.0 : watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0;
-    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
-        found->share[tet] = part * result->tet_error[tet];
-    if (watch->kind == OST_WATCH_STRAIN_ENERGY) {
-        OST_TRY(ost_problem_energy(&state, t, result->displacement, &found->value));
-        found->error = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
-    } else {
-        OstInterest interest;
-        OstStatus status = ost_interest_create(&state, watch, t, result->displacement, &interest);
-        if (status == OST_SUCCESS && !by_statics.known)
-            status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, &interest,
-                                           ost_problem_is_linear(&state) ? ost_share_of_adjoint(result->answer.relative)
-                                                                         : 0.0,
-                                           &found->error, found->share);
-        found->value = interest.value;
-        found->doubt = interest.moved && ost_estimate_misses(estimate) ? fabs(found->error) : interest.doubt;
-        found->size = interest.size;
-        ost_interest_clear(&interest);
-        OST_TRY(status);
-    }
-    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
-        found->sum += found->share[tet];
-    OST_TRY(ost_sum(result->ctx, 1, &found->sum));
-    const int has_none =
-        watch->kind == OST_WATCH_REACTION && !by_statics.known && !ost_reactions_have_adjoint(analysis->problem);
-    found->watch = isnan(found->error) || has_none ? NULL : watch;
-    return OST_SUCCESS;
-}
-
 static int finds_reactions(const OstAnalysis *analysis)
 {
     return !analysis->leaves_reactions && ost_reactions_have_adjoint(analysis->problem);
@@ -171,21 +131,95 @@ static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult
         ost_problem_take_pressure(problem, result->pressure);
     OstStatus status = ost_problem_stiffness_from(problem, t, result->displacement, NULL, definite);
     stiffness->moved = 1;
+    ost_solver_aim(
+        stiffness->solver, /* not that of Newton's method, which ends where others may do */
+        (OstSolverAim){.first = result->solve.method, .coupling = problem->pressures ? problem->coupling : NULL});
     OST_THEN(how == OST_UPDATE_KEEP ? ost_solver_update(stiffness->solver, how)
                                     : ost_stiffness_solver_rebuild(stiffness, t, result->displacement));
     if (problem->pressures)
         ost_problem_take_pressure(problem, pressure);
     ost_problem_take_formulation(problem, formulation);
-    return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT ? OST_SUCCESS : status;
+    return ost_adjoint_has_no_answer(status) ? OST_SUCCESS : status;
 }
 
-/* Adjoint problems of large rotations need the stiffness at the answer. Where it is no good, their solves say so. */
+/* Adjoint problems of large rotations need the stiffness at the answer. The solver's hierarchy does for it, mostly; a
+ * solve that finds it too old ends. */
 static OstStatus move_for_adjoints(OstAnalysis *analysis, double t, const OstResult *result)
 {
     const OstProblem *problem = analysis->problem;
     if (ost_problem_is_linear(problem) || !(asks_of_quantity(problem) || finds_reactions(analysis)))
         return OST_SUCCESS;
     return move_stiffness(analysis, t, result, 0, OST_UPDATE_KEEP);
+}
+
+/* A new hierarchy, with which the solver may go on to its other strategies, for an adjoint problem that the old one did
+ * not solve. */
+static OstStatus renew_for_adjoints(OstAnalysis *analysis, double t, const OstResult *result, int *renewed)
+{
+    *renewed = !ost_problem_is_linear(analysis->problem);
+    return *renewed ? move_stiffness(analysis, t, result, 0, OST_UPDATE_REBUILD) : OST_SUCCESS;
+}
+
+/* The quantity's error, by its adjoint problem; NAN if that has no answer. */
+static OstStatus solve_interest(OstAnalysis *analysis, OstEstimate *estimate, double t, const OstInterest *interest,
+                                OstResult *result)
+{
+    const OstLinear *linear = analysis->work;
+    const int is_linear = ost_problem_is_linear(analysis->problem);
+    const double share = is_linear ? ost_share_of_adjoint(result->answer.relative) : 0.0;
+    OstInterestError *found = &result->interest;
+    int renewed = 0;
+    OstStatus status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, interest,
+                                             share, &found->error, found->share);
+    if (ost_adjoint_has_no_answer(status)) {
+        OST_TRY(renew_for_adjoints(analysis, t, result, &renewed));
+        if (renewed)
+            status = ost_estimate_interest(estimate, linear->stiffness.solver, t, result->displacement, interest, share,
+                                           &found->error, found->share);
+    }
+    found->has_no_answer = ost_adjoint_has_no_answer(status);
+    if (found->has_no_answer)
+        ost_warn(analysis->ctx,
+                 "the error of what 'of' names is not known, as its adjoint problem could not be solved (%.300s): that "
+                 "in the norm of the energy is taken in its place",
+                 ost_error_text(analysis->ctx));
+    return found->has_no_answer ? OST_SUCCESS : status;
+}
+
+/* The error of the quantity that the case asks about; tet_error still has squares. That of a strain energy is half the
+ * squared error in the norm of the energy. The mesh makes none of a reaction that statics gives. */
+static OstStatus estimate_interest(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
+{
+    const OstProblem state = at_answer(analysis, result);
+    const OstWatch *watch = &state.scene->c->watches[state.scene->c->interest - 1];
+    OstInterestError *found = &result->interest;
+    OstWatchedReaction by_statics = {0};
+    OST_TRY(ost_reactions_by_statics(&state, watch, t, result->displacement, &by_statics));
+    OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &found->share, result->mesh->owned_tets)));
+    const double part = by_statics.known ? 0.0 : watch->kind == OST_WATCH_STRAIN_ENERGY ? 0.5 : 1.0;
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->share[tet] = part * result->tet_error[tet];
+    if (watch->kind == OST_WATCH_STRAIN_ENERGY) {
+        OST_TRY(ost_problem_energy(&state, t, result->displacement, &found->value));
+        found->error = 0.5 * result->answer.energy_norm * result->answer.energy_norm;
+    } else {
+        OstInterest interest;
+        OstStatus status = ost_interest_create(&state, watch, t, result->displacement, &interest);
+        if (status == OST_SUCCESS && !by_statics.known)
+            status = solve_interest(analysis, estimate, t, &interest, result);
+        found->value = interest.value;
+        found->doubt = interest.moved && ost_estimate_misses(estimate) ? fabs(found->error) : interest.doubt;
+        found->size = interest.size;
+        ost_interest_clear(&interest);
+        OST_TRY(status);
+    }
+    for (OstLocal tet = 0; tet < result->mesh->owned_tets; tet++)
+        found->sum += found->share[tet];
+    OST_TRY(ost_sum(result->ctx, 1, &found->sum));
+    const int has_none =
+        watch->kind == OST_WATCH_REACTION && !by_statics.known && !ost_reactions_have_adjoint(analysis->problem);
+    found->watch = isnan(found->error) || has_none ? NULL : watch;
+    return OST_SUCCESS;
 }
 
 /* A hierarchy, or factors that GMRES was content with, made before the body turned see its bending as strain: few steps
@@ -213,6 +247,16 @@ static void take_interest(const OstCase *c, OstResult *result)
         result->reactions[c->interest - 1] = (OstWatchedReaction){.known = 1, .error = interest->error};
 }
 
+/* Is there one whose adjoint problem has had no answer? */
+static int misses_reaction(const OstProblem *problem, const OstResult *result)
+{
+    const OstCase *c = problem->scene->c;
+    int any = 0;
+    for (int w = 0; w < c->watch_count && ost_reactions_have_adjoint(problem); w++)
+        any |= c->watches[w].kind == OST_WATCH_REACTION && !result->reactions[w].known;
+    return any;
+}
+
 /* Of watched reactions and mean stresses, one for each quantity; by linear theory load cases, and a path's steps, share
  * adjoint problems.
  */
@@ -225,10 +269,19 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
     const int shares =
         ost_problem_is_linear(problem) && (analysis->serves_several || problem->scene->c->path_steps > 0);
     OstReactions *kept = analysis->company ? &analysis->company->reactions : &analysis->reactions;
+    int renewed = 0;
     OST_TRY(ost_agree(result->ctx, OST_NEW(result->ctx, &result->reactions, problem->scene->c->watch_count)));
     take_interest(problem->scene->c, result);
-    return ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
-                              result->answer.relative, result->tet_error, shares ? kept : NULL, result->reactions);
+    for (int again = 1; again;) {
+        OST_TRY(ost_reactions_find(&state, estimate, linear->stiffness.solver, t, result->displacement,
+                                   result->answer.relative, result->tet_error, shares ? kept : NULL,
+                                   result->reactions));
+        again = !renewed && misses_reaction(problem, result);
+        if (again)
+            OST_TRY(renew_for_adjoints(analysis, t, result, &renewed));
+        again &= renewed;
+    }
+    return OST_SUCCESS;
 }
 
 static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)

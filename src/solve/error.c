@@ -40,18 +40,20 @@ typedef struct Search {
     double *residual;        /* of the rows */
     double *of_rows;         /* the error, of the rows */
     double *internal;        /* forces */
+    double stress;           /* the sum of its squares over this rank's tets */
     double *error;           /* of all local nodes */
     double caution;          /* what is stated over what is measured; 1 until corrections show more */
     const OstTurned *turned; /* the state where rotations are large; else NULL */
 } Search;
 
 /* P (f - K u) */
-static OstStatus find_residual(const Search *search)
+static OstStatus find_residual(Search *search)
 {
     const OstProblem *problem = search->problem;
     double *load = NULL;
     OstStatus status = OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
-    OST_THEN(ost_problem_force(problem, 1.0, search->solved->displacement, search->internal));
+    OST_THEN(
+        ost_problem_force_and_stress(problem, 1.0, search->solved->displacement, search->internal, &search->stress));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     ost_problem_load(problem, 1.0, NULL, load);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
@@ -85,8 +87,8 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     const OstTurned *turned = search->turned;
     OST_TRY(turned ? ost_guard_turned_errors(problem, turned->t, turned->displacement, turned->internal, turned->load,
                                              search->error, errors)
-                   : ost_guard_errors(problem, problem, search->solved->displacement, search->internal, search->error,
-                                      errors));
+                   : ost_guard_errors(problem, problem, search->solved->displacement, search->internal, search->stress,
+                                      search->error, errors));
     state(search, errors);
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,

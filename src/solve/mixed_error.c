@@ -24,6 +24,7 @@ typedef struct Search {
     OstSolver *solver;
     const OstSolved *solved;
     double *load, *internal;       /* forces, 3 × owned_nodes */
+    double stress;                 /* the sum of its squares over this rank's tets */
     double *error;                 /* of nodes */
     double *r_u, *r_p, *e_u, *e_p; /* residuals and errors of the rows and pressures */
     double *of_tets;               /* the error of the pressures, of tets */
@@ -61,7 +62,7 @@ static OstStatus find_residuals(Search *search)
 {
     const OstProblem *problem = search->problem;
     const double *u = search->solved->displacement;
-    OstStatus status = ost_problem_force(problem, 1.0, u, search->internal);
+    OstStatus status = ost_problem_force_and_stress(problem, 1.0, u, search->internal, &search->stress);
     OST_THEN(ost_pressure_volume(problem->pressures, problem->field, OST_FORMULATION_LINEAR,
                                  ost_problem_eigen_share(problem, 1.0), u, search->r_p, NULL));
     OST_TRY(ost_agree(problem->ctx, status));
@@ -91,8 +92,8 @@ static OstStatus measure(Search *search, double missing, OstErrors *errors, int 
     OST_TRY(ost_problem_displacement(problem, 0.0, search->e_u, search->error));
     if (problem->free_body)
         OST_TRY(ost_free_body_centre(problem->mesh, search->error));
-    OST_TRY(
-        ost_guard_errors(problem, &of_error, search->solved->displacement, search->internal, search->error, errors));
+    OST_TRY(ost_guard_errors(problem, &of_error, search->solved->displacement, search->internal, search->stress,
+                             search->error, errors));
     ost_log(
         problem->ctx, OST_LOG_VERBOSE,
         "solver: to %g, the error of both equations is %.1e in the displacement, %.1e in reactions, %.1e in stresses",

@@ -109,6 +109,10 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement);
  * where the solver found none, or the matrix indefinite. */
 OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, const double *rhs, int *found);
 
+/* Collective. from + length × direction (count each), on rigid faces along the curve on which they keep their shape. */
+OstStatus ost_newton_move(const OstNewton *newton, const double *from, const double *direction, double length,
+                          double *to);
+
 /* Collective. The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
 OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction);
 

@@ -89,12 +89,14 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
 {
     const OstProblem *problem = newton->problem;
     double sums[SUMS] = {0.0}, strain_energy = 0.0, work = 0.0;
+    const int load_depends_on_u = problem->follower || problem->lever;
     if (ost_newton_is_mixed(newton))
         ost_newton_take_pressure(newton, displacement);
+    OST_TRY(ost_problem_turn(problem, displacement));
     OST_TRY(ost_agree(newton->ctx, ost_problem_force(problem, newton->t, displacement, newton->internal)));
     if (ost_newton_has_energy(newton))
         OST_TRY(ost_problem_energy(problem, newton->t, displacement, &strain_energy));
-    if (problem->follower) {
+    if (load_depends_on_u) {
         ost_problem_load(problem, newton->t, displacement, newton->load);
         OST_TRY(ost_problem_load_work(problem, newton->t, displacement, &work));
     }
@@ -105,7 +107,7 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
         sums[SUM_DISPLACEMENT] += ost_dot3(displacement + 3 * (size_t)node, displacement + 3 * (size_t)node);
     }
     OST_TRY(ost_sum(newton->ctx, SUMS, sums));
-    work = problem->follower ? work : sums[SUM_WORK];
+    work = load_depends_on_u ? work : sums[SUM_WORK];
     newton->norm = sqrt(sums[SUM_RESIDUAL]);
     if (ost_newton_is_mixed(newton)) {
         OST_TRY(ost_agree(newton->ctx, ost_newton_find_volume(newton, displacement)));

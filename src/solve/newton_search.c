@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/levers.h"
+#include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/parallel/reduce.h"
 #include "solve/newton_data.h"
@@ -85,10 +87,18 @@ static double shorten(const Point *start, const Point *point)
     return fmin(fmax(found, least_cut * length), most_cut * length);
 }
 
-static OstStatus go_to(OstNewton *newton, double length, Point *point)
+OstStatus ost_newton_move(const OstNewton *newton, const double *from, const double *direction, double length,
+                          double *to)
 {
     for (size_t i = 0; i < newton->count; i++)
-        newton->candidate[i] = newton->displacement[i] + length * newton->direction[i];
+        to[i] = from[i] + length * direction[i];
+    OST_TRY(ost_rigid_faces_move(newton->problem->supports->links, from, direction, length, to));
+    return ost_levers_put(newton->problem->supports->links, to);
+}
+
+static OstStatus go_to(OstNewton *newton, double length, Point *point)
+{
+    OST_TRY(ost_newton_move(newton, newton->displacement, newton->direction, length, newton->candidate));
     OST_TRY(ost_newton_evaluate(newton, newton->candidate));
     return measure(newton, length, point);
 }
@@ -178,6 +188,7 @@ static OstStatus give_up_trial(OstNewton *newton, double *length)
     trial->steps = 0;
     memcpy(newton->displacement, trial->displacement, newton->count * sizeof(double));
     memcpy(newton->correction, trial->correction, 3 * (size_t)newton->problem->system->matrix->rows * sizeof(double));
+    OST_TRY(ost_problem_turn(newton->problem, newton->displacement));
     OST_TRY(ost_newton_spread(newton, newton->correction, newton->direction));
     OST_TRY(go_to(newton, 1.0, &point));
     return cut_back(newton, &start, shorten(&start, &point), length);

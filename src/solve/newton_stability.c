@@ -59,14 +59,15 @@ static OstStatus find_motion(OstNewton *newton, int *found)
 static OstStatus push_along(OstNewton *newton, double size)
 {
     const OstMesh *mesh = newton->problem->mesh;
+    const size_t nodes = 3 * (size_t)mesh->node_count; /* pressures come after them, and stay */
     double largest = 0.0;
     for (size_t i = 0; i < 3 * (size_t)mesh->owned_nodes; i++)
         largest = fmax(largest, fabs(newton->direction[i]));
     OST_TRY(ost_max(newton->ctx, 1, &largest));
     const double length = push * size / largest;
-    for (size_t i = 0; i < 3 * (size_t)mesh->node_count; i++)
-        newton->displacement[i] += length * newton->direction[i];
-    return OST_SUCCESS;
+    memcpy(newton->candidate, newton->displacement, newton->count * sizeof(double));
+    memset(newton->direction + nodes, 0, (newton->count - nodes) * sizeof(double));
+    return ost_newton_move(newton, newton->candidate, newton->direction, length, newton->displacement);
 }
 
 /* The pressures may hold what the rest of the stiffness does not. *stable: also where that is not known. */

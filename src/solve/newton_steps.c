@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -162,11 +163,7 @@ void ost_newton_stop_at(OstNewton *newton, double fraction, const OstAnswerError
 /* Puts what is prescribed at the load factor into a displacement, ghosts included. */
 static OstStatus prescribe(OstNewton *newton, double *displacement)
 {
-    const OstSystem *system = newton->problem->system;
-    for (OstLocal row = 0; row < system->matrix->rows; row++)
-        memcpy(newton->correction + 3 * (size_t)row, displacement + 3 * (size_t)system->node_of_row[row],
-               3 * sizeof(double));
-    return ost_problem_displacement(newton->problem, newton->t, newton->correction, displacement);
+    return ost_problem_prescribe(newton->problem, newton->t, newton->correction, displacement);
 }
 
 /* Takes the method to a load factor: the load, and the residual that the state has under it. */
@@ -216,8 +213,11 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
     OST_TRY(load_to(newton, state, t));
     memcpy(newton->candidate, state->displacement, count * sizeof(double));
     OST_TRY(prescribe(newton, newton->candidate));
+    memcpy(newton->displacement, newton->candidate, count * sizeof(double));
     for (size_t i = 0; i < count; i++)
         newton->candidate[i] -= state->displacement[i];
+    OST_TRY(ost_rigid_faces_change(newton->problem->supports->links, state->displacement, newton->displacement, 0, 1.0,
+                                   newton->candidate));
     OST_TRY(move_supports(newton, state));
     memcpy(newton->displacement, state->displacement, count * sizeof(double));
     newton->moved = 0;
@@ -303,10 +303,8 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
     newton->indefinite = newton->step_iterations = 0;
     OST_TRY(load_to(newton, state, t));
     newton->moved = 1;
-    for (size_t i = 0; i < newton->count; i++) {
-        newton->from[i] = state->displacement[i];
-        newton->displacement[i] = state->displacement[i] + step * state->slope[i];
-    }
+    memcpy(newton->from, state->displacement, newton->count * sizeof(double));
+    OST_TRY(ost_newton_move(newton, state->displacement, state->slope, step, newton->displacement));
     OST_TRY(prescribe(newton, newton->displacement));
     return ost_newton_find_rest(newton, most_iterations, rest);
 }
@@ -388,6 +386,8 @@ static OstStatus accept(OstNewton *newton, const Attempt *attempt, double to, Os
     const size_t count = newton->count;
     for (size_t i = 0; i < count; i++)
         state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
+    OST_TRY(ost_rigid_faces_change(newton->problem->supports->links, state->displacement, newton->displacement, 1, step,
+                                   state->slope));
     memcpy(state->displacement, newton->displacement, count * sizeof(double));
     state->t = attempt->t;
     state->step = newton->step_iterations <= FEW_ITERATIONS    ? 2.0 * step

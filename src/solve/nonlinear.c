@@ -18,6 +18,7 @@
 static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
 {
     ost_problem_take_formulation(analysis->problem, OST_FORMULATION_LINEAR);
+    OST_TRY(ost_problem_turn(analysis->problem, NULL));
     if (analysis->work && !analysis->problem->filled) /* an earlier solve has filled the matrix elsewhere */
         ost_linear_strategy.release(analysis);
     return ost_linear_strategy.prepare(analysis, before);
@@ -78,15 +79,7 @@ OstStatus ost_nonlinear_advance(OstNewton *newton, double linear_strain, double 
 
 int ost_nonlinear_stays_linear(const OstProblem *problem, double linear_error)
 {
-    const OstLinks *links = problem->supports->links;
-    if (!problem->automatic || linear_error <= problem->accuracy)
-        return problem->automatic;
-    if (links && links->gaps)
-        ost_warn(problem->ctx,
-                 "a tie across a gap turns by linear theory alone, so the answer is one of it, off by "
-                 "about %.2g %%: let the faces of the tie meet, and large rotations are solved for",
-                 100.0 * linear_error);
-    return links && links->gaps;
+    return problem->automatic && linear_error <= problem->accuracy;
 }
 
 int ost_nonlinear_may_be_mixed(const OstProblem *problem)
@@ -198,10 +191,8 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OST_TRY(ost_nonlinear_judge(problem, result));
     if (problem->automatic && result->newton.linear_error <= problem->accuracy)
         OST_TRY(ost_nonlinear_look_closer(analysis, result));
-    if (ost_nonlinear_stays_linear(problem, result->newton.linear_error)) {
-        result->linear_alone |= problem->supports->links && problem->supports->links->gaps;
+    if (ost_nonlinear_stays_linear(problem, result->newton.linear_error))
         return OST_SUCCESS;
-    }
     if (problem->automatic && ost_buckling_ends(result))
         return OST_SUCCESS;
     if (analysis->company)

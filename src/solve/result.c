@@ -20,7 +20,7 @@ OstStatus ost_result_create(const OstProblem *problem, OstResult **result)
         made->mesh = mesh;
         made->field = ost_problem_field(problem);
         made->t = 1.0;
-        made->linear_alone = problem->effects && ost_effects_why_linear(problem->effects);
+        made->linear_alone = problem->effects && problem->effects->why_linear;
         status = OST_NEW(ctx, &made->displacement, 3 * (size_t)mesh->node_count);
         if (problem->pressures) {
             ost_ledger_enter(ctx, OST_EFFECT_MIXED);

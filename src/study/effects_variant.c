@@ -227,7 +227,7 @@ const char *ost_variant_why_unmeasured(const OstEffects *effects, OstVariant var
     case OST_VARIANT_NO_PERIODIC:
         return "the cell's mean strain would go with them";
     case OST_VARIANT_LARGE_ROTATION:
-        return ost_effects_why_linear(effects);
+        return effects->why_linear;
     default:
         return NULL;
     }

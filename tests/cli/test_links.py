@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import re
 
 from bricks import brick_mesh
 from program import SANITIZED, check, fewer, new_folder, run, solve, write
@@ -43,9 +44,9 @@ accuracy: {relative_residual: 1e-10}
 """
 
 
-def bar(rigid, loads="", nu="0", method="auto"):
+def bar(rigid, loads="", nu="0", method="auto", large="off"):
     text = BAR.replace("RIGID", rigid).replace("NU", nu).replace("LOADS", f"loads: [{loads}]" if loads else "")
-    return text + f"solver: {{method: {method}}}\n"
+    return text + f"solver: {{method: {method}}}\nlarge_rotation: {large}\n"
 
 
 def a_rigid_face_bends_a_bar():
@@ -88,6 +89,7 @@ cases:
   - {name: free, constraints: [{on: {boundary: xmax}, rigid: [4, 0.5, 0.5]}], loads: [{on: {boundary: xmax}, moment: [0, 0, 5]}]}
 watch: {tip: {displacement: {nearest: [4, 0.5, 0.5]}, component: y}}
 accuracy: {relative_residual: 1e-10}
+large_rotation: off
 output: {file: bar.vtkhdf}
 """
 
@@ -391,6 +393,56 @@ accuracy: {relative_residual: 1e-9}
 """
 
 
+SLENDER = """
+mesh: {file: slender.msh}
+element: {order: 2}
+materials: [{region: soft, youngs_modulus: 1000, poissons_ratio: 0}, {region: stiff, youngs_modulus: 1e8, poissons_ratio: 0}]
+constraints: [{on: {boundary: _xmin}, START}, {on: {boundary: _xmax}, rigid: END}]
+LOADS
+large_rotation: on
+watch:
+  x: {displacement: {nearest: [8, 0, 0]}, component: x}
+  y: {displacement: {nearest: [8, 0, 0]}, component: y}
+  z: {displacement: {nearest: [8, 0, 0]}, component: z}
+  moment: {reaction: {boundary: _xmax}, about: [8, 0.2, 0.25], component: z}
+  clamp: {reaction: {boundary: _xmin}, about: [0, 0.2, 0.25], component: z}
+  energy: strain_energy
+"""
+
+
+def slender(start, end, loads="", length=8):
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "slender.msh"),
+               [("", (0, 0, 0), (length, 0.4, 0.5), (2 * length, 1, 1), lambda cell: "soft" if cell[0] < 16 else "stiff")])
+    text = SLENDER.replace("START", start).replace("END", end).replace("LOADS", f"loads: [{loads}]" if loads else "")
+    return (text if length > 8 else re.sub(r", \{region: stiff[^}]*\}", "", text)), folder
+
+
+def rigid_faces_turn_far():
+    """A strip is bent to a half circle, to one of a given radius as the section has E I; a body that only turns does not strain;
+    a hinge turns with what it holds; a lever is one of material that is 1e5 times stiffer."""
+    clamp, turn = "displacement: [0, 0, 0]", math.pi
+    text, folder = slender(clamp, f"{{at: [8, 0.2, 0.25], rotation: [0, 0, {turn!r}]}}")
+    bent = watched(text + "path: {steps: 2}\n", folder, ranks=(2,))
+    near(bent["moment"], 1000 * 0.5 * 0.4**3 / 12 * turn / 8, 0.005, "the moment of a half circle")
+    near(bent["y"], 16 / turn + 0.4, 1e-3, "the diameter")
+    near(bent["clamp"], -bent["moment"], 1e-6, "the moment of the clamp")
+    motion = "{at: [3, 2, 1], displacement: [1, 0, 0], rotation: [1, 1, -1.5]}"
+    moved = watched(*slender(f"rigid: {motion}", motion), ranks=(2,))
+    check(moved["energy"] < 1e-20, f"a body that turns has the energy {moved['energy']}")
+    pinned, angle = "rigid: {at: [0, 0, 0], displacement: [0, 0, 0], rotation: [0, 0, free]}", 2.5
+    hinged = watched(*slender(pinned, f"{{at: [8, 0.2, 0.25], rotation: [0, 0, {angle}]}}"), ranks=(2,))
+    check(hinged["energy"] < 1e-20, f"a body that turns about a hinge has the energy {hinged['energy']}")
+    near(hinged["x"], 8 * math.cos(angle) - 8, 1e-9, "the end of a body that turns about a hinge")
+    force = "{on: {boundary: _xmax}, total_force: [0, 0.06, 0.03]AT}"
+    lever = watched(*slender(clamp, "[8, 0.2, 0.25]", force.replace("AT", ", at: [11, 0.2, 0.25]")))
+    text, folder = slender(clamp, "[]", force.replace("AT", ""), 11)
+    stiff = watched(text.replace(", {on: {boundary: _xmax}, rigid: []}", ""), folder, ranks=(1,))
+    for name in ("x", "y", "z", "clamp", "energy"):
+        near(lever[name], stiff[name], 1e-6, f"a lever: {name}")
+    check(abs(lever["moment"]) < 1e-9 and lever["x"] < -1, f"the free face of a lever: {lever}")
+
+
 def tied_parts_turn_as_one():
     """Two bars that bend by 45 degrees: as the merged mesh, and where the meshes differ about so."""
     folder = new_folder()
@@ -502,7 +554,7 @@ def what_cannot_be_is_refused():
             (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
-            (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}") + "large_rotation: on\n", "linear theory alone"),
+            (bar("{at: [4, 0.5, 0.5], rotation: [0.1, 0, free]}", large="on"), "as that of a hinge"),
             (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
             (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
@@ -511,7 +563,6 @@ def what_cannot_be_is_refused():
             (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
             (bar("[4, 0.5, 0.5]").replace("boundary: xmax}, rigid", "vertices: [1, 2, 3]}, rigid"), "not on one line"),
             (bar("[4, 0.5, 0.5]").replace("{boundary: xmin}, disp", "{boundary: ymin}, disp"), "and is constrained besides"),
-            (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}") + "path: {steps: 2}\n", "no path"),
             (bar("[4, 0.5, 0.5]", "{on: {boundary: xmax}, moment: [0, 0, 5]}").replace("  - {on: {boundary: xmin}, displacement: [0, 0, 0]}\n", ""), "turn")):
         for ranks in (2,):
             finished, _, _ = solve(text, ranks=ranks, folder=folder)
@@ -521,6 +572,7 @@ def what_cannot_be_is_refused():
 if not SANITIZED:  # numbers alone
     a_rigid_face_bends_a_bar()
     what_lies_elsewhere_does_not_matter()
+    rigid_faces_turn_far()
     statics_alone_gives_reactions()
     a_layered_cell_strains_far()
 an_incompressible_bar_follows_its_rigid_end()

@@ -28,7 +28,7 @@ CASES = {
     "point": "loads: [{on: {box: {min: [3.9, -1, 0.9], max: [4.1, 0.1, 1.1]}}, point_force: [0, 1, 0]}]",
     "drawn": "constraints: [{on: {boundary: xmax}, displacement: [0.01, free, free]}]",
     "sprung": "loads: [{on: {boundary: xmax}, total_force: [0, 0, -1]}]\n    springs: [{on: {boundary: zmin}, foundation: 1e4}]",
-    "rigid": "loads: [{on: {boundary: xmax}, total_force: [0, 0, -10000]}]\n    constraints: [{on: {boundary: xmax}, rigid: {at: [4, 0.5, 0.5]}}]",
+    "rigid": "loads: [{on: {boundary: xmax}, total_force: [0, 0, -5000]}]\n    constraints: [{on: {boundary: xmax}, rigid: {at: [4, 0.5, 0.5]}}]",
 }
 STEEL = "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.3, density: 1}]"
 OF_THE_FORM = ("force", "moved", "moved-far", "large", "pressed", "rigid")
@@ -76,7 +76,7 @@ for body, (material, names) in list(BODIES.items())[:2 if SANITIZED else None]:
 folder = new_folder()
 write(folder, "case.yaml", BODY.replace("MATERIAL", BODIES["rubber"][0]) + "cases:\n"
       + "".join(f"  - name: {name}\n    {text}\n" for name, text in CASES.items()))
-for arguments, large in ((), "on +auto: .*; not in 3 of 12 load cases"), (("--case", "force"), "on +auto: [^;]*$"), \
+for arguments, large in ((), "on +auto: .*; not in 2 of 12 load cases"), (("--case", "force"), "on +auto: [^;]*$"), \
         (("--case", "moved"), "off +a body with"):
     finished = run("explain", "case.yaml", *arguments, folder=folder)
     check(re.search(f"large rotation +{large}", finished.output, re.M), finished.output)

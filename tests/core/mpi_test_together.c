@@ -91,6 +91,27 @@ static void what_a_full_service_leaves_waits_for_more(void **state)
     }
 }
 
+enum { MANY = 10, STEPS = 3 };
+
+/* Two kinds in turn, of which eight are served at once. */
+static void ask_in_turn(void *sums, int number)
+{
+    double value = number;
+    for (int k = 0; k < 2 * STEPS; k++)
+        assert_success(ost_together(ctx, square, 8, (Sums *)sums + k % 2, &value));
+}
+
+/* 30 requests of each kind: who waited for a place goes before those who have gone ahead, so that as few services as
+ * can be suffice, and none is for two. */
+static void tasks_stay_in_step(void **state)
+{
+    (void)state;
+    Sums sums[2] = {{0}, {0}};
+    assert_success(ost_together_run(ctx, MANY, ask_in_turn, sums));
+    assert_int_equal(sums[0].services, (MANY * STEPS + 7) / 8);
+    assert_int_equal(sums[0].most, 8);
+}
+
 /* Task k asks k + 1 times, gathers, and asks for something else, which begins alike for all; the last is over before.
  */
 static void ask_and_gather(void *data, int number)
@@ -137,6 +158,7 @@ static void outside_of_tasks_a_request_is_served_alone(void **state)
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(requests_of_one_kind_are_served_at_once),
     cmocka_unit_test(what_a_full_service_leaves_waits_for_more),
+    cmocka_unit_test(tasks_stay_in_step),
     cmocka_unit_test(those_that_gather_go_on_together),
     cmocka_unit_test(a_failure_reaches_all_that_were_served),
     cmocka_unit_test(outside_of_tasks_a_request_is_served_alone),

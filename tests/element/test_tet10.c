@@ -282,7 +282,7 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
             test.batch_u[n][slot] = quadratic(n % 3, test.x[slot] + n / 3 * 3);
     ost_tet10.force(test.batch_x, &test.elasticity, test.batch_u, force);
     ost_tet10.means(test.batch_x, &test.elasticity, test.batch_u, &means);
-    ost_tet10.nodal_strain(test.batch_x, test.batch_u, nodal);
+    ost_tet10.nodal_strain(test.batch_x, NULL, test.batch_u, nodal);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double expected[WIDTH], mean[13], strain[6];
         plain_answer(test.x[slot], test.c, expected, mean);
@@ -298,6 +298,57 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
             for (int p = 0; p < 6; p++)
                 assert_close(nodal[6 * a + p][slot], strain[p], 1e-13);
         }
+    }
+}
+
+/* What a batch's displacements give. */
+typedef struct Found {
+    OstSimd force[WIDTH], beside[WIDTH], magnitude[WIDTH], nodal[2 * WIDTH], stress[6];
+    OstMeans means;
+} Found;
+
+static void find(const Case *test, const OstKeptPoints *at_nodes, Found *found)
+{
+    ost_tet10.force(test->batch_x, &test->elasticity, test->batch_u, found->force);
+    ost_tet10.force_and_stress(test->batch_x, &test->elasticity, test->batch_u, found->beside, found->stress);
+    ost_tet10.magnitude(test->batch_x, &test->elasticity, test->batch_u, found->magnitude);
+    ost_tet10.means(test->batch_x, &test->elasticity, test->batch_u, &found->means);
+    ost_tet10.nodal_strain(test->batch_x, at_nodes, test->batch_u, found->nodal);
+}
+
+static void assert_same(int count, const OstSimd *a, const OstSimd *b)
+{
+    double size = 0.0;
+    for (int n = 0; n < count; n++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            size = fmax(size, fabs(b[n][slot]));
+    for (int n = 0; n < count; n++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            assert_close(a[n][slot] / size, b[n][slot] / size, 1e-14);
+}
+
+static void points_that_are_kept_change_nothing(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) { /* straight, curved, of a C that varies */
+        Case test;
+        OstKeptPoints kept, at_nodes;
+        Found alone, shared;
+        make_case(kind > 0 ? 0.1 : 0.0, &test);
+        if (kind == 2)
+            make_varying(&test);
+        find(&test, NULL, &alone);
+        ost_tet10.keep(test.batch_x, &test.elasticity, &kept);
+        ost_tet10.keep_nodes(test.batch_x, &at_nodes);
+        assert_ptr_equal(kept.rule, kind == 0 ? &ost_tet_degree2 : &ost_tet_degree3);
+        test.elasticity.kept = &kept;
+        find(&test, &at_nodes, &shared);
+        assert_same(WIDTH, shared.force, alone.force);
+        assert_same(WIDTH, shared.magnitude, alone.magnitude);
+        assert_same(2 * WIDTH, shared.nodal, alone.nodal);
+        assert_same(6, shared.means.stress, alone.means.stress);
+        assert_same(WIDTH, alone.beside, alone.force);
+        assert_same(6, alone.stress, alone.means.stress);
     }
 }
 
@@ -430,6 +481,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_straight_tet_does_not_feel_a_curved_one_beside_it),
     cmocka_unit_test(rigid_motions_meet_no_stiffness),
     cmocka_unit_test(a_quadratic_field_has_its_strain_stress_and_forces),
+    cmocka_unit_test(points_that_are_kept_change_nothing),
     cmocka_unit_test(magnitude_sums_absolute_values),
     cmocka_unit_test(scalar_measures_follow_the_shape_functions),
     cmocka_unit_test(areas_of_curved_faces_converge_with_order_four),

@@ -209,7 +209,7 @@ static void a_linear_field_has_its_strain_and_energy(void **state)
     for (int pq = 0; pq < 36; pq++)
         density += 0.5 * expected[pq / 6] * test.c[pq] * expected[pq % 6];
     ost_tet4.means(test.batch_x, &test.elasticity, u, &means);
-    ost_tet4.nodal_strain(test.batch_x, u, nodal);
+    ost_tet4.nodal_strain(test.batch_x, NULL, u, nodal);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         for (int p = 0; p < 6; p++) {
             double stress = 0.0;

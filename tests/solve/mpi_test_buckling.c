@@ -70,6 +70,11 @@ static void columns_buckle_at_eulers_load(void **state)
     assert_factors(COLUMN ISOTROPIC "constraints: [" CLAMPED
                                     ", {on: {boundary: xmax}, rigid: [1, 0.03, 0.02]}]\n" PRESSED LINEAR MODES,
                    euler(0.06, 0.04, 1e6, shear, 2.0), euler(0.04, 0.06, 1e6, shear, 2.0), 0.01);
+    /* pressed at the end of a rigid lever, half as long: kL tan kL = 2 */
+    assert_factors(COLUMN ISOTROPIC
+                   "constraints: [" CLAMPED ", {on: {boundary: xmax}, rigid: [1, 0.03, 0.02]}]\n"
+                   "loads: [{on: {boundary: xmax}, total_force: [-1, 0, 0], at: [1.5, 0.03, 0.02]}]\n" LINEAR MODES,
+                   euler(0.06, 0.04, 1e6, shear, 2.9173), euler(0.04, 0.06, 1e6, shear, 2.9173), 0.001);
 }
 
 /* E G = 10: without what shear takes the column of fibres would bear 3 % more. */

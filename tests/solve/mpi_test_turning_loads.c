@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
+#include "assembly/links/rigid_faces.h"
+#include "core/parallel/reduce.h"
+#include "problem/problem.h"
 #include "problem/scene_data.h"
 
 /* Moments, forces at a point and centrifugal loads, against formulas. */
@@ -213,6 +216,125 @@ static void what_cannot_be_is_refused(void **state)
                     "acts in the volume");
 }
 
+/* A bar with a lever at its end, in some state, and a motion of it from there. */
+typedef struct Turned {
+    OstProblem *problem;
+    double *u, *from, *direction, *load, *force, *rows; /* `rows`: of the motion */
+} Turned;
+
+static double total_energy(const Turned *turned, double length)
+{
+    const OstProblem *problem = turned->problem;
+    double energy, work;
+    for (OstLocal i = 0; i < 3 * problem->mesh->node_count; i++)
+        turned->u[i] = turned->from[i] + length * turned->direction[i];
+    assert_success(ost_rigid_faces_move(problem->supports->links, turned->from, turned->direction, length, turned->u));
+    assert_success(ost_problem_turn(problem, turned->u));
+    assert_success(ost_problem_energy(problem, 1.0, turned->u, &energy));
+    assert_success(ost_problem_load_work(problem, 1.0, turned->u, &work));
+    return energy - work;
+}
+
+/* A displacement of the nodes, by random numbers of the rows, which follow from labels. */
+static void move_at_random(const Turned *turned, double size, int seed, double *displacement)
+{
+    const OstSystem *system = turned->problem->system;
+    for (OstLocal row = 0; row < system->matrix->rows; row++)
+        for (int i = 0; i < 3; i++)
+            turned->rows[3 * row + i] =
+                size * sin(1.7 * (double)(system->matrix->label[row] % 97) + 2.3 * (3 * seed + i));
+    const OstRigidFace *face = turned->problem->supports->links->face;
+    for (int k = 0; k < 6; k++) {
+        const OstGlobal node = face->carrier[k / 3] - system->mesh->first_node;
+        if (face->constrained[k] && node >= 0 && node < system->mesh->owned_nodes)
+            turned->rows[3 * system->row_of_node[node] + k % 3] = 0.0;
+    }
+    assert_success(ost_system_displacement(system, 0.0, turned->rows, displacement));
+}
+
+/* The first and second derivative of the energy by differences of fourth order. */
+static void find_derivatives(const Turned *turned, double derivative[2])
+{
+    static const double first[5] = {1.0, -8.0, 0.0, 8.0, -1.0}, second[5] = {-1.0, 16.0, -30.0, 16.0, -1.0};
+    const double step = 4e-3;
+    for (int s = 0; s < 5; s++) {
+        const double energy = total_energy(turned, step * (s - 2));
+        derivative[0] += first[s] / (12.0 * step) * energy;
+        derivative[1] += second[s] / (12.0 * step * step) * energy;
+    }
+}
+
+/* The same by forces, and by the stiffness. */
+static void expect_derivatives(const Turned *turned, double expected[2])
+{
+    const OstMesh *mesh = turned->problem->mesh;
+    const OstBlockMatrix *matrix = turned->problem->system->matrix;
+    double *x = calloc(3 * (size_t)matrix->columns, sizeof *x), *y = calloc(3 * (size_t)matrix->rows + 1, sizeof *y);
+    assert_success(ost_problem_force(turned->problem, 1.0, turned->from, turned->force));
+    ost_problem_load(turned->problem, 1.0, turned->from, turned->load);
+    for (OstLocal i = 0; i < 3 * mesh->owned_nodes; i++)
+        turned->force[i] -= turned->load[i];
+    assert_success(ost_system_take_rows(turned->problem->system, turned->force, y));
+    for (OstLocal i = 0; i < 3 * matrix->rows; i++)
+        expected[0] += y[i] * turned->rows[i];
+    memcpy(x, turned->rows, 3 * (size_t)matrix->rows * sizeof *x);
+    assert_success(ost_block_matrix_apply(matrix, x, y));
+    for (OstLocal i = 0; i < 3 * matrix->rows; i++)
+        expected[1] += y[i] * turned->rows[i];
+    assert_success(ost_sum(ctx, 2, expected));
+    free(x);
+    free(y);
+}
+
+/* Along the curve on which a rigid face turns, forces are the derivative of the energy, and the stiffness theirs. */
+static void assert_consistent(const char *rigid)
+{
+    char text[1024];
+    OstCase *c = NULL;
+    OstScene *scene = NULL;
+    Turned turned = {0};
+    double found[2] = {0.0}, expected[2] = {0.0};
+    snprintf(text, sizeof text,
+             "large_rotation: on\nmesh: {block: {size: [3, 1, 1], divisions: [3, 1, 2]}}\n"
+             "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]\n"
+             "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: xmax}, rigid: %s}]\n"
+             "loads: [{on: {boundary: xmax}, total_force: [1, 2, -3], at: [5, 1, 0]}, "
+             "{on: {boundary: xmax}, moment: [1, -1, 2]}]\n",
+             rigid);
+    assert_success(read_text(text, &c));
+    assert_success(ost_scene_create(c, &scene));
+    assert_success(ost_scene_problem(scene, &turned.problem));
+    assert_success(ost_problem_stiffness(turned.problem, 1.0, NULL, NULL));
+    ost_problem_take_formulation(turned.problem, OST_FORMULATION_CONSISTENT);
+    const size_t nodes = 3 * (size_t)scene->mesh->node_count;
+    double **arrays[] = {&turned.u, &turned.from, &turned.direction, &turned.load, &turned.force, &turned.rows};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        *arrays[k] = calloc(nodes, sizeof **arrays[k]);
+    move_at_random(&turned, 0.1, 1, turned.direction);
+    assert_success(ost_problem_prescribe(turned.problem, 1.0, turned.rows, turned.from));
+    total_energy(&turned, 1.0);
+    memcpy(turned.from, turned.u, nodes * sizeof *turned.u);
+    assert_success(ost_problem_stiffness(turned.problem, 1.0, turned.from, NULL));
+    move_at_random(&turned, 0.1, 2, turned.direction);
+    expect_derivatives(&turned, expected);
+    find_derivatives(&turned, found);
+    for (int k = 0; k < 2; k++)
+        assert_close(found[k], expected[k], 1e-8 * (fabs(expected[0]) + fabs(expected[1])));
+    assert_true(fabs(expected[0]) > 1e-3 && fabs(expected[1]) > 1e-3);
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
+        free(*arrays[k]);
+    ost_problem_destroy(&turned.problem);
+    ost_scene_destroy(&scene);
+    ost_case_destroy(&c);
+}
+
+static void rigid_faces_turn_under_their_energy(void **state)
+{
+    assert_consistent("[4, 2, 1]");
+    assert_consistent("{at: [3, 1, 1], displacement: [0.5, free, 0.2], rotation: [0, free, 0]}");
+    assert_consistent("{at: [4, 2, 1], displacement: [free, 1, free], rotation: [1, -2, 0.5]}");
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_moment_bends_a_bar_as_beam_theory_says),
     cmocka_unit_test(a_force_at_a_point_is_a_force_and_a_moment),
@@ -220,6 +342,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_torque_twists_a_tube_as_theory_says),
     cmocka_unit_test(a_disc_widens_as_it_turns),
     cmocka_unit_test(the_reaction_is_the_centrifugal_force),
+    cmocka_unit_test(rigid_faces_turn_under_their_energy),
     cmocka_unit_test(what_cannot_be_is_refused),
 };
 

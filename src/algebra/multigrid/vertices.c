@@ -54,10 +54,29 @@ static const double *places(const OstSolverGeometry *geometry)
     return geometry->moved ? geometry->moved : geometry->coordinates;
 }
 
-static void find_arm(const Making *m, size_t row, OstLocal vertex, double arm[3])
+/* A row's parents, and its arms from them. They balance each other, as it lies between its parents; but where it lies
+ * beside a vertex that follows one on the other side of a periodic cell, there are none. */
+typedef struct Parents {
+    int count;
+    OstLocal column[PARENTS];
+    double weight[PARENTS], arm[PARENTS][3];
+} Parents;
+
+static void find_parents(const Making *m, size_t row, Parents *parents)
 {
-    for (size_t c = 0; c < 3; c++)
-        arm[c] = places(m->geometry)[3 * row + c] - m->place[3 * (size_t)vertex + c];
+    static const double balanced = 1e-3;
+    double sum[3] = {0.0}, longest = 0.0;
+    parents->count = list_parents(m->space, row, parents->column, parents->weight);
+    for (int k = 0; k < parents->count; k++) {
+        double *arm = parents->arm[k];
+        for (size_t c = 0; c < 3; c++) {
+            arm[c] = places(m->geometry)[3 * row + c] - m->place[3 * (size_t)parents->column[k] + c];
+            sum[c] += parents->weight[k] * arm[c];
+        }
+        longest = fmax(longest, ost_norm3(arm));
+    }
+    if (ost_norm3(sum) > balanced * longest)
+        memset(parents->arm, 0, sizeof parents->arm);
 }
 
 static OstStatus place_vertices(Making *m)
@@ -76,13 +95,13 @@ static OstStatus measure_arms(Making *m)
     const OstBlockMatrix *linear = m->space->matrix;
     double *sum = m->arm; /* squares, and their number */
     for (size_t row = 0; row < (size_t)m->scaling->rows; row++) {
-        OstLocal column[PARENTS];
-        double weight[PARENTS], arm[3];
-        const int count = list_parents(m->space, row, column, weight);
-        for (int k = 0; k < count && count > 1; k++) {
-            find_arm(m, row, column[k], arm);
-            sum[2 * (size_t)column[k]] += ost_dot3(arm, arm);
-            sum[2 * (size_t)column[k] + 1] += 1.0;
+        Parents parents;
+        find_parents(m, row, &parents);
+        for (int k = 0; k < parents.count && parents.count > 1; k++) {
+            const size_t column = (size_t)parents.column[k];
+            const double square = ost_dot3(parents.arm[k], parents.arm[k]);
+            sum[2 * column] += square;
+            sum[2 * column + 1] += square > 0.0;
         }
     }
     OST_TRY(ost_halo_add_to_owners(linear->halo, 2, sum));
@@ -102,14 +121,13 @@ static void to_scaled(const double s[6], double x[3])
 
 /* The motion of a row, in its scaled unknowns, for each unknown of one of its parents. A vertex has the constraints of
  * its own row; another row follows where it is free. */
-static void fill_block(const Making *m, size_t row, OstLocal vertex, double weight, float block[BLOCK])
+static void fill_block(const Making *m, size_t row, OstLocal vertex, double weight, const double arm[3],
+                       float block[BLOCK])
 {
     const int is_vertex = weight == 1.0;
     const size_t stride = 3 * (size_t)m->scaling->rows;
     const double *s = m->linear->factor + 6 * (size_t)vertex;
     const double basis[3][3] = {{s[0], 0.0, 0.0}, {s[1], s[2], 0.0}, {s[3], s[4], s[5]}}; /* columns of S^T */
-    double arm[3];
-    find_arm(m, row, vertex, arm);
     for (int c = 0; c < OST_MODES; c++) {
         double whole[3], motion[3] = {0.0};
         if (c < 3)
@@ -140,11 +158,11 @@ static OstStatus fill_rows(Making *m)
     }
     OST_TRY(OST_NEW(ctx, &p->value, BLOCK * (size_t)p->row_start[p->rows] + OST_PADDING));
     for (OstLocal row = 0; row < p->rows; row++) {
-        OstLocal column[PARENTS];
-        double weight[PARENTS];
-        const int count = list_parents(m->space, (size_t)row, column, weight);
-        for (int k = 0; k < count; k++)
-            fill_block(m, (size_t)row, column[k], weight[k], p->value + BLOCK * (size_t)(p->row_start[row] + k));
+        Parents parents;
+        find_parents(m, (size_t)row, &parents);
+        for (int k = 0; k < parents.count; k++)
+            fill_block(m, (size_t)row, parents.column[k], parents.weight[k], parents.arm[k],
+                       p->value + BLOCK * (size_t)(p->row_start[row] + k));
     }
     return OST_RESIZE(ctx, &p->column, p->row_start[p->rows]);
 }

@@ -180,9 +180,10 @@ static void try_face(const Face *face, const double x[3], double *nearest, const
 /* Adds what the face's turning moves the end of the lever by. Its normal n turns by -(n.du_a) t^a, with du_a the slope
  * of the displacement along the tangent t_a, and t^a the tangents reciprocal to these; what of the lever lies along the
  * face moves with the slopes. */
-static void add_lever(const Face *face, int nodes, const double at[3], const double lever[3], double (*weight)[9])
+static void add_lever(const Face *face, int nodes, const double at[3], const double lever[3], OstFacePoint *found)
 {
-    double slope[MOST][2], tangent[2][3] = {{0.0}}, reciprocal[2][3], normal[3];
+    double tangent[2][3] = {{0.0}}, reciprocal[2][3], normal[3];
+    double(*slope)[2] = found->slope;
     ost_shape_face_slopes(nodes, at, slope);
     for (int k = 0; k < nodes; k++)
         for (int i = 0; i < 6; i++)
@@ -195,12 +196,13 @@ static void add_lever(const Face *face, int nodes, const double at[3], const dou
         normal[i] /= area;
     ost_cross3(tangent[1], normal, reciprocal[0]);
     ost_cross3(normal, tangent[0], reciprocal[1]);
-    const double across = ost_dot3(lever, normal);
+    const double across = found->across = ost_dot3(lever, normal);
     for (int k = 0; k < nodes; k++)
         for (int a = 0; a < 2; a++) {
             const double along = slope[k][a] * ost_dot3(lever, reciprocal[a]) / area;
+            found->share[k] += along;
             for (int i = 0; i < 9; i++)
-                weight[k][i] +=
+                found->weight[k][i] +=
                     (i % 4 == 0 ? along : 0.0) - across * slope[k][a] * reciprocal[a][i / 3] / area * normal[i % 3];
         }
 }
@@ -230,9 +232,11 @@ void ost_face_search_nearest(const OstFaceSearch *search, const double x[3], Ost
     found->gap = found->distance / fmax(best->radius, DBL_MIN);
     found->count = search->nodes;
     memcpy(found->number, best->number, sizeof found->number);
-    for (int k = 0; k < search->nodes; k++)
+    for (int k = 0; k < search->nodes; k++) {
+        found->share[k] = shape[k];
         for (int i = 0; i < 9; i++)
             found->weight[k][i] = i % 4 == 0 ? shape[k] : 0.0;
+    }
     if (found->distance > no_gap * best->radius)
-        add_lever(best, search->nodes, at, lever, found->weight);
+        add_lever(best, search->nodes, at, lever, found);
 }

@@ -19,7 +19,8 @@ typedef struct OstFacePoint {
     OstGlobal number[6];
     double weight[6][9];
     double distance;
-    double gap; /* that, over the size of the face */
+    double gap;                           /* that, over the size of the face */
+    double share[6], slope[6][2], across; /* of the lever (levers.h) */
 } OstFacePoint;
 
 /* Local. By the point nearest to x; of a curved face, the one over the nearest point of its three vertices' triangle.

@@ -18,6 +18,7 @@ OstStatus ost_links_create(const OstMesh *mesh, OstLinks **links)
     OST_TRY(OST_NEW(ctx, links, 1));
     (*links)->ctx = ctx;
     (*links)->mesh = mesh;
+    (*links)->of_face = -1;
     OstStatus status = OST_NEW(ctx, &(*links)->of_node, mesh->node_count);
     OST_THEN(OST_NEW(ctx, &(*links)->leads, mesh->node_count));
     OST_THEN(OST_NEW(ctx, &(*links)->kept, mesh->owned_nodes));
@@ -35,6 +36,8 @@ void ost_links_destroy(OstLinks **links)
         return;
     OST_FREE((*links)->link);
     OST_FREE((*links)->held);
+    OST_FREE((*links)->lever);
+    ost_halo_destroy(&(*links)->of_links);
     OST_FREE((*links)->of_node);
     OST_FREE((*links)->leads);
     OST_FREE((*links)->kept);
@@ -65,12 +68,24 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
                          label);
     OST_TRY(make_room(links, links->count + 1));
     OstLink *link = &links->link[links->count];
-    *link = (OstLink){.node = node, .count = count, .line = links->line, .between_meshes = links->between_meshes};
+    *link = (OstLink){.node = node,
+                      .count = count,
+                      .line = links->line,
+                      .between_meshes = links->between_meshes,
+                      .face = links->of_face};
     memcpy(link->leader, leader, (size_t)count * sizeof *leader);
     memcpy(link->place, place, sizeof link->place);
     memcpy(links->offset + 3 * (size_t)node, offset, 3 * sizeof *offset);
     links->of_node[node] = links->count++;
     return OST_SUCCESS;
+}
+
+void ost_links_add_corners(OstLinks *links, int count, const OstGlobal *corner, const double (*weight)[9])
+{
+    OstLink *link = &links->link[links->count - 1];
+    link->corners = count;
+    memcpy(link->corner, corner, (size_t)count * sizeof *corner);
+    memcpy(link->corner_weight, weight, (size_t)count * sizeof *weight);
 }
 
 OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
@@ -83,6 +98,25 @@ OstStatus ost_links_add_face(OstLinks *links, const OstRigidFace *face)
             links->kept[local] = 1;
     }
     return OST_SUCCESS;
+}
+
+OstStatus ost_links_add_lever(OstLinks *links, const OstLever *lever)
+{
+    OST_TRY(OST_GROW(links->ctx, &links->lever, links->lever_count + 1));
+    links->lever[links->lever_count++] = *lever;
+    links->gaps = 1;
+    return OST_SUCCESS;
+}
+
+void ost_rigid_face_weight(const OstRigidFace *face, const double arm[3], double weight[9])
+{
+    for (int k = 0; k < 3; k++) {
+        const double axis[3] = {k == 0, k == 1, k == 2};
+        double moved[3];
+        ost_cross3(axis, arm, moved);
+        for (int i = 0; i < 3; i++)
+            weight[3 * i + k] = face->constrained[3 + k] ? 0.0 : moved[i] / face->length;
+    }
 }
 
 /* Numbers the links of ghosts after those of owned nodes, in the order of nodes, as ost_halo_subset needs it. */
@@ -110,29 +144,38 @@ static OstStatus order_links(OstLinks *links, OstLocal *order)
 }
 
 /* Leader by leader: a whole link is longer than what a halo carries. */
-static OstStatus share_links(OstLinks *links, OstHalo *halo)
+OstStatus ost_links_share_weights(OstLinks *links)
 {
     OstLeader *leader = NULL;
-    int *of = NULL; /* how many leaders a link has, and whether it is between meshes */
-    OstStatus status = OST_NEW(links->ctx, &leader, links->all);
-    OST_THEN(OST_NEW(links->ctx, &of, 2 * (size_t)links->all));
-    OST_TRY_DONE(ost_agree(links->ctx, status));
-    for (OstLocal i = 0; i < links->count; i++)
-        memcpy(of + 2 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes}, 2 * sizeof *of);
-    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, 2 * sizeof *of, of)));
-    for (int k = 0; k < OST_MOST_LEADERS; k++) {
+    OstStatus status = ost_agree(links->ctx, OST_NEW(links->ctx, &leader, links->all));
+    for (int k = 0; k < OST_MOST_LEADERS && status == OST_SUCCESS; k++) {
         for (OstLocal i = 0; i < links->count; i++)
             leader[i] = links->link[i].leader[k];
-        OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(halo, sizeof *leader, leader)));
+        status = ost_agree(links->ctx, ost_halo_import(links->of_links, sizeof *leader, leader));
         for (OstLocal i = links->count; i < links->all; i++)
             links->link[i].leader[k] = leader[i];
     }
+    OST_FREE(leader);
+    return status;
+}
+
+static OstStatus share_links(OstLinks *links)
+{
+    int *of = NULL; /* how many leaders a link has, whether it is between meshes, and its face */
+    OstStatus status = OST_NEW(links->ctx, &of, 3 * (size_t)links->all);
+    OST_TRY_DONE(ost_agree(links->ctx, status));
+    for (OstLocal i = 0; i < links->count; i++)
+        memcpy(of + 3 * (size_t)i, (int[]){links->link[i].count, links->link[i].between_meshes, links->link[i].face},
+               3 * sizeof *of);
+    OST_TRY_DONE(ost_agree(links->ctx, ost_halo_import(links->of_links, 3 * sizeof *of, of)));
+    OST_TRY_DONE(ost_links_share_weights(links));
     for (OstLocal i = links->count; i < links->all; i++) {
-        links->link[i].count = of[2 * (size_t)i];
-        links->link[i].between_meshes = of[2 * (size_t)i + 1];
+        links->link[i].count = of[3 * (size_t)i];
+        links->link[i].between_meshes = of[3 * (size_t)i + 1];
+        links->link[i].face = of[3 * (size_t)i + 2];
     }
 done:
-    OST_FREE(leader, of);
+    OST_FREE(of);
     return status;
 }
 
@@ -140,12 +183,10 @@ static OstStatus share_with_ghosts(OstLinks *links)
 {
     OstContext *ctx = links->ctx;
     OstLocal *order = NULL;
-    OstHalo *halo = NULL;
     OstStatus status = ost_agree(ctx, OST_NEW(ctx, &order, links->mesh->node_count));
     OST_THEN(ost_agree(ctx, order_links(links, order)));
-    OST_THEN(ost_agree(ctx, ost_halo_subset(links->mesh->halo, order, &halo)));
-    OST_THEN(share_links(links, halo));
-    ost_halo_destroy(&halo);
+    OST_THEN(ost_agree(ctx, ost_halo_subset(links->mesh->halo, order, &links->of_links)));
+    OST_THEN(share_links(links));
     OST_FREE(order);
     return status;
 }
@@ -159,13 +200,23 @@ static int is_mine(const OstLinks *links, OstGlobal number)
 static OstStatus list_far_leaders(const OstLinks *links, OstGlobal **number, OstLocal *count)
 {
     *count = 0;
-    OST_TRY(OST_NEW(links->ctx, number, OST_MOST_LEADERS * (size_t)links->all));
-    for (OstLocal i = 0; i < links->all; i++)
+    OST_TRY(OST_NEW(links->ctx, number, (OST_MOST_LEADERS + OST_MOST_CORNERS) * (size_t)links->all));
+    for (OstLocal i = 0; i < links->all; i++) {
         for (int k = 0; k < links->link[i].count; k++)
             if (!is_mine(links, links->link[i].leader[k].number))
                 (*number)[(*count)++] = links->link[i].leader[k].number;
+        for (int k = 0; k < links->link[i].corners; k++)
+            if (!is_mine(links, links->link[i].corner[k]))
+                (*number)[(*count)++] = links->link[i].corner[k];
+    }
     *count = ost_numbers_sort(*count, *number);
     return OST_SUCCESS;
+}
+
+static OstLocal slot_of_number(const OstLinks *links, OstLocal count, const OstGlobal *far, OstGlobal number)
+{
+    return is_mine(links, number) ? (OstLocal)(number - links->mesh->first_node)
+                                  : links->mesh->owned_nodes + ost_numbers_find(count, far, number);
 }
 
 static OstStatus connect_leaders(OstLinks *links)
@@ -177,12 +228,13 @@ static OstStatus connect_leaders(OstLinks *links)
     OST_THEN(ost_agree(links->ctx,
                        ost_halo_create(links->ctx, mesh->owned_nodes, mesh->first_node, count, far, &links->halo)));
     links->slots = mesh->owned_nodes + count;
-    for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++)
-        for (int k = 0; k < links->link[i].count; k++) {
-            const OstGlobal number = links->link[i].leader[k].number;
-            links->link[i].slot[k] = is_mine(links, number) ? (OstLocal)(number - mesh->first_node)
-                                                            : mesh->owned_nodes + ost_numbers_find(count, far, number);
-        }
+    for (OstLocal i = 0; i < links->all && status == OST_SUCCESS; i++) {
+        OstLink *link = &links->link[i];
+        for (int k = 0; k < link->count; k++)
+            link->slot[k] = slot_of_number(links, count, far, link->leader[k].number);
+        for (int k = 0; k < link->corners; k++)
+            link->corner_slot[k] = slot_of_number(links, count, far, link->corner[k]);
+    }
     OST_FREE(far);
     return status;
 }
@@ -254,6 +306,11 @@ static OstStatus take_supports(OstLinks *links, const OstHeld *held)
         status = check_follower(links, leading, &links->link[i]);
         for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
             status = take_leader(links, leading, &links->link[i], k);
+    }
+    for (OstLocal i = 0; i < links->lever_count && status == OST_SUCCESS; i++) {
+        const OstLink *link = ost_link_of(links, links->lever[i].node);
+        for (int k = 0; k < link->count; k++)
+            memcpy(links->lever[i].projector[k], leading[link->slot[k]].held.projector, 9 * sizeof(double));
     }
     OST_FREE(leading);
     return ost_agree(links->ctx, status);

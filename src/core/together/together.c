@@ -28,6 +28,7 @@ typedef struct Task {
     int most;             /* of such requests that are served at once */
     void *common, *request;
     long turn;        /* requests are numbered as they come */
+    long requests;    /* of this task so far */
     OstStatus status; /* of what it waited for */
     double since;     /* when it began to wait */
     Place place;
@@ -135,7 +136,13 @@ static const Task *choose(const struct OstTogether *together)
     return chosen;
 }
 
-/* Those that wait for the same, the first come first; as many as are served at once. */
+/* Does a go before b? One that is behind does, so that tasks that do the same stay in step; else the first come. */
+static int goes_before(const Task *a, const Task *b)
+{
+    return a->requests != b->requests ? a->requests < b->requests : a->turn < b->turn;
+}
+
+/* Those that wait for the same, in turn; as many as are served at once. */
 static int line_up(struct OstTogether *together, const Task *chosen, Task *of[OST_MOST_TOGETHER])
 {
     int count = 0;
@@ -144,7 +151,7 @@ static int line_up(struct OstTogether *together, const Task *chosen, Task *of[OS
         int place = count;
         if (!is_alike(task, chosen))
             continue;
-        for (; place > 0 && of[place - 1]->turn > task->turn; place--)
+        for (; place > 0 && goes_before(task, of[place - 1]); place--)
             of[place] = of[place - 1];
         of[place] = task;
         count++;
@@ -226,6 +233,7 @@ OstStatus ost_together(OstContext *ctx, OstServe *served_by, int most, void *com
     task->serve = served_by;
     task->most = most;
     task->turn = together->requests++;
+    task->requests++;
     task->common = common;
     task->request = request;
     swapcontext(&task->context, &together->outside);

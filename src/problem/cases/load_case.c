@@ -70,6 +70,8 @@ static void take_displacements(OstSupports *supports, const OstSupports *other)
     memcpy(supports->links->offset, other->links->offset,
            3 * (size_t)supports->mesh->node_count * sizeof *supports->links->offset);
     supports->links->moves = other->links->moves;
+    for (int f = 0; f < supports->links->face_count; f++)
+        memcpy(supports->links->face[f].given, other->links->face[f].given, sizeof other->links->face[f].given);
 }
 
 void ost_problem_take_loading(OstProblem *problem, OstProblem *other)

@@ -2,6 +2,7 @@
 #include "solve/buckling/modes.h"
 
 #include "algebra/matrix/vector.h"
+#include "assembly/links/levers.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -28,12 +29,14 @@ typedef struct Search {
     double *ghosted;             /* 3 × matrix->columns */
     double *v[BLOCK], *f[BLOCK]; /* 3 × node_count, 3 × owned_nodes */
     double *turned[2];           /* 3 × node_count, 3 × owned_nodes: of loads that follow the surface; or NULL */
+    OstTurning turning;          /* ost_problem_find_turning */
     double value[BLOCK], residual[BLOCK];
 } Search;
 
 static void release(Search *search)
 {
-    OST_FREE(search->room, search->ghosted, search->v[0], search->f[0], search->turned[0], search->turned[1]);
+    OST_FREE(search->room, search->ghosted, search->v[0], search->f[0], search->turned[0], search->turned[1],
+             search->turning.faces, search->turning.levers);
 }
 
 static OstStatus allocate(Search *search)
@@ -79,6 +82,31 @@ static void add_follower(const Search *search, const double *v, double *force)
     }
 }
 
+static OstStatus find_turning(Search *search)
+{
+    OstProblem answer = *search->problem; /* with its pressure, if it has one */
+    answer.field = search->result->field;
+    return ost_problem_find_turning(&answer, search->result->t, search->result->displacement, 0, &search->turning);
+}
+
+/* Adds what forces at the arms of rigid faces do as these turn. */
+static void add_turning(const Search *search, const double *x, double *forces)
+{
+    const OstSystem *system = search->problem->system;
+    const OstLinks *links = search->problem->supports->links;
+    for (int f = 0; search->turning.faces && f < links->face_count; f++) {
+        const OstRigidFace *face = &links->face[f];
+        const OstGlobal node = face->carrier[1] - system->mesh->first_node;
+        double part[3];
+        if (face->carrier[1] < 0 || node < 0 || node >= system->mesh->owned_nodes)
+            continue;
+        const size_t row = 3 * (size_t)system->row_of_node[node];
+        ost_apply3(search->turning.faces + 9 * f, x + row, part);
+        for (size_t i = 0; i < 3; i++)
+            forces[row + i] += part[i] / (face->length * face->length);
+    }
+}
+
 /* K x and -K_stress x of `count` columns from `first` on. */
 static OstStatus multiply(Search *search, int first, int count)
 {
@@ -95,7 +123,9 @@ static OstStatus multiply(Search *search, int first, int count)
     for (int c = 0; c < count; c++) {
         if (problem->follower)
             add_follower(search, search->v[c], search->f[c]);
+        OST_TRY(ost_levers_multiply(problem->supports->links, search->turning.levers, search->v[c], search->f[c]));
         OST_TRY(ost_system_take_rows(system, search->f[c], search->s[first + c]));
+        add_turning(search, search->x[first + c], search->s[first + c]);
         for (size_t i = 0; i < search->n; i++)
             search->s[first + c][i] = -search->s[first + c][i];
     }
@@ -319,6 +349,7 @@ OstStatus ost_modes_find(const OstProblem *problem, OstSolver *solver, const Ost
                      .n = 3 * (size_t)problem->system->matrix->rows};
     *modes = (OstModes){.count = aim->modes};
     OstStatus status = allocate(&search);
+    OST_THEN(find_turning(&search));
     OST_THEN(iterate(&search, aim, modes));
     for (int c = 0; c < aim->modes && status == OST_SUCCESS; c++) {
         modes->softening[c] = search.value[c];

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/left_out/left_out.h"
 
+#include "assembly/links/levers.h"
+#include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -22,6 +24,7 @@ static const double nothing = 1e-10;
 typedef struct Work {
     double *force, *load, *even; /* 3 × owned_nodes: of one direction; and what both have in common */
     double *residual, *taken;    /* 3 × rows, and the pressures, ghosts included */
+    double *turned;              /* 3 × node_count: the displacement, with rigid faces in their shape */
 } Work;
 
 static void release(Work *work)
@@ -31,6 +34,7 @@ static void release(Work *work)
     OST_FREE(work->even);
     OST_FREE(work->residual);
     OST_FREE(work->taken);
+    OST_FREE(work->turned);
 }
 
 static OstStatus allocate(const OstProblem *problem, Work *work)
@@ -44,6 +48,7 @@ static OstStatus allocate(const OstProblem *problem, Work *work)
     OST_THEN(OST_NEW(ctx, &work->even, owned));
     OST_THEN(OST_NEW(ctx, &work->residual, unknowns));
     OST_THEN(OST_NEW(ctx, &work->taken, unknowns));
+    OST_THEN(OST_NEW(ctx, &work->turned, 3 * (size_t)problem->mesh->node_count));
     return ost_agree(ctx, status);
 }
 
@@ -136,10 +141,15 @@ static void reverse(OstResult *result)
 static OstStatus subtract_half(const OstProblem *problem, const OstResult *result, double sign, Work *work)
 {
     const OstSystem *system = problem->system;
-    const double share = sign * ost_problem_eigen_share(problem, result->t), *u = result->displacement;
+    const OstLinks *links = problem->supports->links;
+    const double share = sign * ost_problem_eigen_share(problem, result->t), *u = work->turned;
+    memcpy(work->turned, result->displacement, 3 * (size_t)problem->mesh->node_count * sizeof *work->turned);
+    OST_TRY(ost_rigid_faces_move(links, NULL, result->displacement, 1.0, work->turned));
+    OST_TRY(ost_levers_put(links, work->turned));
+    OST_TRY(ost_problem_turn(problem, u));
     OST_TRY(ost_agree(problem->ctx, ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT,
                                                           share, u, work->force, NULL)));
-    if (problem->follower) {
+    if (problem->follower || (links && (links->face_count > 0 || links->gaps))) {
         OstProblem turned = *problem;
         ost_problem_take_formulation(&turned, OST_FORMULATION_CONSISTENT);
         ost_problem_load(&turned, result->t, u, work->load);
@@ -169,7 +179,9 @@ static OstStatus find_residual(const OstProblem *problem, OstResult *result, Wor
     reverse(result);
     OST_THEN(subtract_half(problem, result, -1.0, work));
     reverse(result);
-    return ost_agree(problem->ctx, status);
+    status = ost_agree(problem->ctx, status);
+    OST_THEN(ost_problem_turn(problem, NULL));
+    return status;
 }
 
 static OstStatus stop_there(void *data, const double *u, double error, double *next)

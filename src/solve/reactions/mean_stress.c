@@ -64,7 +64,7 @@ static OstStatus create(Wanted *wanted)
     OST_THEN(
         ost_adjoint_create(wanted->estimate, wanted->solver, wanted->t, wanted->u, &interest, share, &wanted->adjoint));
     ost_interest_clear(&interest);
-    return status == OST_NOT_CONVERGED ? OST_SUCCESS : status;
+    return ost_adjoint_has_no_answer(status) ? OST_SUCCESS : status;
 }
 
 /* OstServe: of one list of those that are kept. */

@@ -49,6 +49,11 @@ int ost_reactions_allow_stop(const OstProblem *problem)
            (is_work(problem) && !problem->supports->links && ost_problem_is_linear(problem) && !problem->pressures);
 }
 
+int ost_adjoint_has_no_answer(OstStatus status)
+{
+    return status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT;
+}
+
 int ost_reactions_have_adjoint(const OstProblem *problem)
 {
     return problem->scene && any(problem->scene->c) && is_work(problem) &&
@@ -278,8 +283,7 @@ static OstStatus create(Wanted *wanted)
 {
     const OstStatus status = ost_adjoint_create(wanted->estimate, wanted->solver, wanted->t, wanted->u,
                                                 &wanted->search->interest, wanted->share, &wanted->adjoint);
-    const int is_no_use = status == OST_NOT_CONVERGED || status == OST_INVALID_INPUT; /* an indefinite stiffness */
-    return is_no_use ? OST_SUCCESS : status;
+    return ost_adjoint_has_no_answer(status) ? OST_SUCCESS : status;
 }
 
 /* OstServe: of one list of those that are kept. What the first solves for serves the others, so it is found to what

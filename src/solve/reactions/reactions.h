@@ -37,6 +37,10 @@ int ost_reactions_allow_stop(const OstProblem *problem);
 /* Local. May a watched reaction have an adjoint problem? Not where the stiffness has an unsymmetric part. */
 int ost_reactions_have_adjoint(const OstProblem *problem);
 
+/* Local. Is this how the solve of an adjoint problem ends that has no answer: of an indefinite stiffness, or as no
+ * strategy was left? */
+int ost_adjoint_has_no_answer(OstStatus status);
+
 /* Local. Has a watched quantity an adjoint problem of its own: a reaction, or a mean stress as above? */
 int ost_reactions_are_watched(const OstProblem *problem);
 
