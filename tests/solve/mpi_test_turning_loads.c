@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "../case/case_text.h"
+#include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 #include "problem/problem.h"
 #include "problem/scene_data.h"
 
@@ -229,6 +231,7 @@ static double total_energy(const Turned *turned, double length)
     for (OstLocal i = 0; i < 3 * problem->mesh->node_count; i++)
         turned->u[i] = turned->from[i] + length * turned->direction[i];
     assert_success(ost_rigid_faces_move(problem->supports->links, turned->from, turned->direction, length, turned->u));
+    assert_success(ost_levers_put(problem->supports->links, turned->u));
     assert_success(ost_problem_turn(problem, turned->u));
     assert_success(ost_problem_energy(problem, 1.0, turned->u, &energy));
     assert_success(ost_problem_load_work(problem, 1.0, turned->u, &work));
@@ -243,8 +246,14 @@ static void move_at_random(const Turned *turned, double size, int seed, double *
         for (int i = 0; i < 3; i++)
             turned->rows[3 * row + i] =
                 size * sin(1.7 * (double)(system->matrix->label[row] % 97) + 2.3 * (3 * seed + i));
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        double projector[9], all[3];
+        memcpy(all, turned->rows + 3 * row, sizeof all);
+        ost_supports_get(turned->problem->supports, system->node_of_row[row], projector, NULL);
+        ost_apply3(projector, all, turned->rows + 3 * row);
+    }
     const OstRigidFace *face = turned->problem->supports->links->face;
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 6 * turned->problem->supports->links->face_count; k++) {
         const OstGlobal node = face->carrier[k / 3] - system->mesh->first_node;
         if (face->constrained[k] && node >= 0 && node < system->mesh->owned_nodes)
             turned->rows[3 * system->row_of_node[node] + k % 3] = 0.0;
@@ -287,7 +296,7 @@ static void expect_derivatives(const Turned *turned, double expected[2])
 }
 
 /* Along the curve on which a rigid face turns, forces are the derivative of the energy, and the stiffness theirs. */
-static void assert_consistent(const char *rigid)
+static void assert_consistent(const char *held, const char *follows)
 {
     char text[1024];
     OstCase *c = NULL;
@@ -297,10 +306,10 @@ static void assert_consistent(const char *rigid)
     snprintf(text, sizeof text,
              "large_rotation: on\nmesh: {block: {size: [3, 1, 1], divisions: [3, 1, 2]}}\n"
              "materials: [{region: all, youngs_modulus: 10, poissons_ratio: 0.3}]\n"
-             "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}, {on: {boundary: xmax}, rigid: %s}]\n"
+             "constraints: [{on: %s}, {on: {boundary: xmax}, %s}]\n"
              "loads: [{on: {boundary: xmax}, total_force: [1, 2, -3], at: [5, 1, 0]}, "
              "{on: {boundary: xmax}, moment: [1, -1, 2]}]\n",
-             rigid);
+             held, follows);
     assert_success(read_text(text, &c));
     assert_success(ost_scene_create(c, &scene));
     assert_success(ost_scene_problem(scene, &turned.problem));
@@ -330,9 +339,18 @@ static void assert_consistent(const char *rigid)
 
 static void rigid_faces_turn_under_their_energy(void **state)
 {
-    assert_consistent("[4, 2, 1]");
-    assert_consistent("{at: [3, 1, 1], displacement: [0.5, free, 0.2], rotation: [0, free, 0]}");
-    assert_consistent("{at: [4, 2, 1], displacement: [free, 1, free], rotation: [1, -2, 0.5]}");
+    static const char end[] = "{boundary: xmin}, displacement: [0, 0, 0]";
+    assert_consistent(end, "rigid: [4, 2, 1]");
+    assert_consistent(end, "rigid: {at: [3, 1, 1], displacement: [0.5, free, 0.2], rotation: [0, free, 0]}");
+    assert_consistent(end, "rigid: {at: [4, 2, 1], displacement: [free, 1, free], rotation: [1, -2, 0.5]}");
+}
+
+/* The end follows the other one, three units away; one of those that it follows slides. */
+static void levers_turn_under_their_energy(void **state)
+{
+    static const char tie[] = "tied_to: {boundary: xmin}, tolerance: 4}, "
+                              "{on: {nearest: [0, 0, 0]}, displacement: [free, 0.1, free]";
+    assert_consistent("{plane: {point: [1, 0, 0], normal: [1, 0, 0]}}, displacement: [0, 0, 0]", tie);
 }
 
 static const struct CMUnitTest tests[] = {
@@ -343,6 +361,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_disc_widens_as_it_turns),
     cmocka_unit_test(the_reaction_is_the_centrifugal_force),
     cmocka_unit_test(rigid_faces_turn_under_their_energy),
+    cmocka_unit_test(levers_turn_under_their_energy),
     cmocka_unit_test(what_cannot_be_is_refused),
 };
 
