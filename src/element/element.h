@@ -78,8 +78,8 @@ typedef struct OstElement {
      * forces. */
     void (*magnitude)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *magnitude);
 
-    /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node). `at_nodes`: the nodes,
-     * as keep_nodes evaluates them where several displacements follow; or NULL. */
+    /* Means of strain, stress and energy over the tets; strain at each node (6 numbers a node), which keep_nodes has
+     * evaluated for all displacements that follow. */
     void (*means)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstMeans *means);
     void (*nodal_strain)(const OstSimd *x, const OstKeptPoints *at_nodes, const OstSimd *u, OstSimd *strain);
 

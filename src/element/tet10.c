@@ -464,30 +464,22 @@ OST_KERNEL static void tet10_force_and_stress(const OstSimd *x, const OstElastic
     memcpy(stress, means.stress, sizeof means.stress);
 }
 
-/* The place of a node. */
-static inline void evaluate_node(const OstSimd *x, int a, OstPoint *point)
-{
-    double at[4] = {0.0};
-    at[ost_tet10_ends[a][0]] += 0.5;
-    at[ost_tet10_ends[a][1]] += 0.5;
-    evaluate(x, at, point);
-}
-
 OST_KERNEL static void tet10_keep_nodes(const OstSimd *x, OstKeptPoints *at_nodes)
 {
-    for (int a = 0; a < NODES; a++)
-        evaluate_node(x, a, &at_nodes->at[a]);
+    for (int a = 0; a < NODES; a++) {
+        double at[4] = {0.0};
+        at[ost_tet10_ends[a][0]] += 0.5;
+        at[ost_tet10_ends[a][1]] += 0.5;
+        evaluate(x, at, &at_nodes->at[a]);
+    }
 }
 
 OST_KERNEL static void tet10_nodal_strain(const OstSimd *x, const OstKeptPoints *at_nodes, const OstSimd *u,
                                           OstSimd *strain)
 {
-    for (int a = 0; a < NODES; a++) {
-        OstPoint room;
-        if (!at_nodes)
-            evaluate_node(x, a, &room);
-        strain_at(at_nodes ? &at_nodes->at[a] : &room, u, strain + 6 * a);
-    }
+    (void)x;
+    for (int a = 0; a < NODES; a++)
+        strain_at(&at_nodes->at[a], u, strain + 6 * a);
 }
 
 /* The functions below are for one tet: they compute a batch of copies of it and read the first. */

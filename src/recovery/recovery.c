@@ -116,16 +116,19 @@ static void find_regions(const OstMesh *mesh, int32_t *region)
         }
 }
 
+/* C at the nodes, and what the strain there takes. */
 static void gather_at_nodes(const OstResult *result, const OstElement *element, const OstBatch *batch,
-                            OstElasticity *at_nodes)
+                            OstElasticity *at_nodes, OstKeptPoints *kept)
 {
+    if (element->keep_nodes && result->formulation == OST_FORMULATION_LINEAR)
+        element->keep_nodes(batch->x, kept);
     OstSimd places[3 * OST_MAX_TET_NODES];
     ost_batch_gather_vectors(batch, element->nodes, result->mesh->coordinates, places);
     ost_elasticity_gather(at_nodes, result->field, batch->tet, element->points > 0 ? element->nodes : 0,
                           ost_tet_nodes.point, places);
 }
 
-/* Stress at the nodes of a batch's tets, 6 numbers a node. `kept`: the nodes, evaluated; or NULL. */
+/* Stress at the nodes of a batch's tets, 6 numbers a node. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
                             const OstElasticity *at_nodes, const OstKeptPoints *kept, OstSimd *stress)
 {
@@ -161,14 +164,15 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
 {
     const OstElement *element = ost_element_of(result->mesh->nodes_per_tet);
     OstSimd all[6 * OST_MAX_TET_NODES];
+    OstKeptPoints kept;
     OstBatch batch;
     OstElasticity at_nodes;
     ost_elasticity_clear(&batch.elasticity);
     ost_elasticity_clear(&at_nodes);
     batch.elasticity.eigen_share = at_nodes.eigen_share = result->t;
     ost_batch_gather(&batch, element, result->mesh, result->field, 1, &tet);
-    gather_at_nodes(result, element, &batch, &at_nodes);
-    stress_of_batch(result, element, &batch, &at_nodes, NULL, all);
+    gather_at_nodes(result, element, &batch, &at_nodes, &kept);
+    stress_of_batch(result, element, &batch, &at_nodes, &kept, all);
     for (int n = 0; n < 6 * element->nodes; n++)
         stress[n] = all[n][0];
 }
@@ -337,7 +341,6 @@ static void average(int count, void *const *request, const Around *around)
     const OstResult *first_result = ((const Request *)request[0])->result;
     const OstMesh *mesh = first_result->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    const int keeps = count > 1 && element->keep_nodes && first_result->formulation == OST_FORMULATION_LINEAR;
     OstKeptPoints kept;
     OstBatch batch;
     OstElasticity at_nodes;
@@ -350,14 +353,12 @@ static void average(int count, void *const *request, const Around *around)
         ost_batch_gather_from(&batch, element, mesh, first_result->field, first, mesh->tet_count);
         if (first_result->formulation != OST_FORMULATION_LINEAR)
             ost_batch_keep_alike(&batch, element, mesh, first_result->field);
-        gather_at_nodes(first_result, element, &batch, &at_nodes);
+        gather_at_nodes(first_result, element, &batch, &at_nodes, &kept);
         add_volumes(mesh, element->nodes, &batch, around, share);
-        if (keeps)
-            element->keep_nodes(batch.x, &kept);
         for (int k = 0; k < count; k++) {
             const Request *one = request[k];
             OstSimd stress[6 * OST_MAX_TET_NODES];
-            stress_of_batch(one->result, element, &batch, &at_nodes, keeps ? &kept : NULL, stress);
+            stress_of_batch(one->result, element, &batch, &at_nodes, &kept, stress);
             add_batch(element->nodes, &batch, share, stress, one->stress);
         }
     }

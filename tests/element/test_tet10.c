@@ -275,6 +275,7 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
     Case test;
     OstSimd force[WIDTH];
     OstSimd nodal[60];
+    OstKeptPoints at_nodes;
     OstMeans means;
     make_case(0.0, &test);
     for (int n = 0; n < WIDTH; n++)
@@ -282,7 +283,8 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
             test.batch_u[n][slot] = quadratic(n % 3, test.x[slot] + n / 3 * 3);
     ost_tet10.force(test.batch_x, &test.elasticity, test.batch_u, force);
     ost_tet10.means(test.batch_x, &test.elasticity, test.batch_u, &means);
-    ost_tet10.nodal_strain(test.batch_x, NULL, test.batch_u, nodal);
+    ost_tet10.keep_nodes(test.batch_x, &at_nodes);
+    ost_tet10.nodal_strain(test.batch_x, &at_nodes, test.batch_u, nodal);
     for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
         double expected[WIDTH], mean[13], strain[6];
         plain_answer(test.x[slot], test.c, expected, mean);
@@ -303,17 +305,16 @@ static void a_quadratic_field_has_its_strain_stress_and_forces(void **state)
 
 /* What a batch's displacements give. */
 typedef struct Found {
-    OstSimd force[WIDTH], beside[WIDTH], magnitude[WIDTH], nodal[2 * WIDTH], stress[6];
+    OstSimd force[WIDTH], beside[WIDTH], magnitude[WIDTH], stress[6];
     OstMeans means;
 } Found;
 
-static void find(const Case *test, const OstKeptPoints *at_nodes, Found *found)
+static void find(const Case *test, Found *found)
 {
     ost_tet10.force(test->batch_x, &test->elasticity, test->batch_u, found->force);
     ost_tet10.force_and_stress(test->batch_x, &test->elasticity, test->batch_u, found->beside, found->stress);
     ost_tet10.magnitude(test->batch_x, &test->elasticity, test->batch_u, found->magnitude);
     ost_tet10.means(test->batch_x, &test->elasticity, test->batch_u, &found->means);
-    ost_tet10.nodal_strain(test->batch_x, at_nodes, test->batch_u, found->nodal);
 }
 
 static void assert_same(int count, const OstSimd *a, const OstSimd *b)
@@ -332,20 +333,18 @@ static void points_that_are_kept_change_nothing(void **state)
     (void)state;
     for (int kind = 0; kind < 3; kind++) { /* straight, curved, of a C that varies */
         Case test;
-        OstKeptPoints kept, at_nodes;
+        OstKeptPoints kept;
         Found alone, shared;
         make_case(kind > 0 ? 0.1 : 0.0, &test);
         if (kind == 2)
             make_varying(&test);
-        find(&test, NULL, &alone);
+        find(&test, &alone);
         ost_tet10.keep(test.batch_x, &test.elasticity, &kept);
-        ost_tet10.keep_nodes(test.batch_x, &at_nodes);
         assert_ptr_equal(kept.rule, kind == 0 ? &ost_tet_degree2 : &ost_tet_degree3);
         test.elasticity.kept = &kept;
-        find(&test, &at_nodes, &shared);
+        find(&test, &shared);
         assert_same(WIDTH, shared.force, alone.force);
         assert_same(WIDTH, shared.magnitude, alone.magnitude);
-        assert_same(2 * WIDTH, shared.nodal, alone.nodal);
         assert_same(6, shared.means.stress, alone.means.stress);
         assert_same(WIDTH, alone.beside, alone.force);
         assert_same(6, alone.stress, alone.means.stress);
