@@ -45,9 +45,10 @@ def read_json(folder, name):
 
 
 def run(*arguments, ranks=1, folder=None, timeout=240, program=PROGRAM):
+    """On two ranks at most with sanitizers: more than the cores would wait for each other."""
     command = [program, *map(str, arguments)]
     if ranks > 1:
-        command = [MPIEXEC, "-n", str(ranks), *command]
+        command = [MPIEXEC, "-n", str(min(ranks, 2) if SANITIZED else ranks), *command]
     for _ in range(3):
         process = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                  stderr=subprocess.PIPE, text=True, timeout=timeout)

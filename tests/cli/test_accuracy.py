@@ -4,7 +4,7 @@ where it may not."""
 import json
 import os
 
-from program import check, new_folder, run
+from program import SANITIZED, check, new_folder, run
 
 CASE = """title: a clamped beam
 mesh: {{block: {{size: [3, 1, 1], divisions: [3, 1, 1]}}}}
@@ -65,6 +65,9 @@ check(report["accepted"], "the answer is one, though not as accurate")
 
 done, _ = solve("accuracy: {relative_error: 0.1}", "--max-time", "soon")
 check(done.exit_code == 2 and "found 'soon'" in done.errors, done.errors)
+
+if SANITIZED:  # what follows is about numbers alone
+    raise SystemExit(0)
 
 # Where only supports move the body the answer has more energy than the exact one, by that of its error.
 BAR = """title: a bar whose end is moved

@@ -205,11 +205,10 @@ for mark in (top_halves, around_an_edge):
 
 TWO_CUBES = "file: " + os.path.join(STORED, "meshio-linear-zlib.vtu")
 REGIONS = ("region: volume-11, youngs_modulus: 1100, poissons_ratio: 0.3", "region: volume-12, youngs_modulus: 1200, poissons_ratio: 0.3")
-for order in fewer([1, 2]):
+for order, ranks in fewer([(1, 1), (1, 4), (2, 2)]):
     expected = answer(text(list(REGIONS), TWO_CUBES, order))
-    for ranks in fewer([1, 2, 4]):
-        same(answer(text('youngs_modulus: {field: "gmsh:physical", factor: 100}, poissons_ratio: 0.3', TWO_CUBES, order), ranks),
-             expected, f"a modulus by tet, order {order}, {ranks} ranks")
+    same(answer(text('youngs_modulus: {field: "gmsh:physical", factor: 100}, poissons_ratio: 0.3', TWO_CUBES, order), ranks),
+         expected, f"a modulus by tet, order {order}, {ranks} ranks")
 ORTHOTROPIC = "poissons_ratio: 0.3, axes: {rotation: {axis: [1, 2, 3], degrees: 40}}"
 expected = answer(text([f"region: volume-11, youngs_modulus: [1100, 550, 220], {ORTHOTROPIC}",
                         f"region: volume-12, youngs_modulus: [1200, 600, 240], {ORTHOTROPIC}"], TWO_CUBES, 2))

@@ -16,20 +16,27 @@ fail() {
 
 # --- the package; everything is built already, and Ninja is not asked to look ---
 
-cpack --config "$ORTHOSTAT_BUILD/CPackConfig.cmake" -B "$folder/cpack" -D CPACK_CMAKE_GENERATOR=Ninja \
-    -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$folder/cpack.log" 2>&1 ||
-    fail "$(cat "$folder/cpack.log")"
-version=$(sed -nE 's/^project\(orthostat VERSION ([0-9.]+).*/\1/p' "$ORTHOSTAT_SOURCE/CMakeLists.txt")
-package=$folder/cpack/orthostat_${version}_$(dpkg --print-architecture).deb
-[ "$(dpkg-deb --field "$package" Version)" = "$version" ] || fail "the package is not of version $version"
-dpkg-deb --field "$package" Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//' >"$folder/depends"
-for needed in openmpi-bin libc6 libopenmpi libhdf5-openmpi libmumps libmetis5 libtrilinos-ml libyaml; do
-    grep -q "^$needed" "$folder/depends" || fail "the package does not depend on $needed: $(tr '\n' ' ' <"$folder/depends")"
-done
-while read -r needed; do # libopenblas0 stands for any of libopenblas0-serial, -pthread and -openmp
-    dpkg-query -W "$needed*" >/dev/null || fail "the package depends on $needed, by which it was not built"
-done <"$folder/depends"
-dpkg-deb -x "$package" "$folder"
+make_package() {
+    cpack --config "$ORTHOSTAT_BUILD/CPackConfig.cmake" -B "$folder/cpack" -D CPACK_CMAKE_GENERATOR=Ninja \
+        -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$folder/cpack.log" 2>&1 ||
+        fail "$(cat "$folder/cpack.log")"
+    version=$(sed -nE 's/^project\(orthostat VERSION ([0-9.]+).*/\1/p' "$ORTHOSTAT_SOURCE/CMakeLists.txt")
+    package=$folder/cpack/orthostat_${version}_$(dpkg --print-architecture).deb
+    [ "$(dpkg-deb --field "$package" Version)" = "$version" ] || fail "the package is not of version $version"
+    dpkg-deb --field "$package" Depends | tr ',' '\n' | sed 's/ *(.*//; s/^ *//' >"$folder/depends"
+    for needed in openmpi-bin libc6 libopenmpi libhdf5-openmpi libmumps libmetis5 libtrilinos-ml libyaml; do
+        grep -q "^$needed" "$folder/depends" || fail "the package does not depend on $needed: $(tr '\n' ' ' <"$folder/depends")"
+    done
+    while read -r needed; do # libopenblas0 stands for any of libopenblas0-serial, -pthread and -openmp
+        dpkg-query -W "$needed*" >/dev/null || fail "the package depends on $needed, by which it was not built"
+    done <"$folder/depends"
+    dpkg-deb -x "$package" "$folder"
+}
+if [ -z "$sanitizers" ]; then
+    make_package
+else # others build on the static library; what else is packaged is the same
+    cmake --install "$ORTHOSTAT_BUILD" --prefix "$folder/usr" >/dev/null
+fi
 
 # --- other projects ---
 
@@ -81,6 +88,8 @@ case $library in
 esac
 
 # --- users ---
+
+[ -z "$sanitizers" ] || exit 0
 
 "$folder/usr/bin/orthostat" --version | grep -qx "orthostat $version" || fail "the program is not of version $version"
 "$folder/usr/bin/orthostat" solve usr/share/orthostat/cases/block/sliding.yaml --quiet --output users.vtkhdf

@@ -31,13 +31,15 @@ def watched(scene, accuracy, refine=0, order=1, large="off", ranks=1):
     return report, done
 
 
+two, finest = {}, {}
 for scene, names in (PULLED, ("middle", "tip")), (MOVED, ("middle", "pull")):
     fine = watched(scene, "{relative_residual: 1e-9}", 2, 2)[0]["watched"]
     for order, refine in (1, 1), (2, 0):
         for name in names:
             report, done = watched(scene, f"{{of: {name}}}", refine, order, ranks=1 if order == 1 else 2)
-            found = report["watched"][name]
-            missing = fine[name]["value"] - found["value"]
+            found = two[name] = report["watched"][name]
+            finest[name] = fine[name]["value"]
+            missing = finest[name] - found["value"]
             ratio = found["error"] / missing
             check(0.6 < ratio < 1.5, f"{name}, order {order}: {found['error']} estimated, {missing} missing")
             check(abs(fine[name]["value"] - found["corrected"]) < 0.4 * abs(missing), f"{name}: corrected {found}")
@@ -61,8 +63,7 @@ check(0.6 < energy["error"] / (fine - energy["value"]) < 1.5 and energy["error"]
 
 # The same on several ranks.
 one = watched(MOVED, "{of: pull}", order=2)[0]["watched"]["pull"]["error"]
-three = watched(MOVED, "{of: pull}", order=2, ranks=3)[0]["watched"]["pull"]["error"]
-check(abs(three / one - 1) < 0.1, f"1 rank: {one}, 3 ranks: {three}")
+check(abs(two["pull"]["error"] / one - 1) < 0.1, f"1 rank: {one}, 2 ranks: {two['pull']}")
 
 # Large rotations: the beam's own adjoint about the bent shape.
 bent = {**PULLED, "loads": "[{on: {boundary: xmax}, total_force: [0, 0, 1]}]"}
@@ -78,11 +79,10 @@ for scene, name, large in (PULLED, "tip", "off"), (MOVED, "pull", "off"), (bent,
     check(0.6 < found["error"] / (fine - found["value"]) < 1.5, f"nu 1/2, {name}, large rotation {large}: {found}, exact {fine}")
 
 # Asked for: the quantity is as accurate as that.
-fine = watched(PULLED, "{relative_residual: 1e-9}", 2, 2)[0]["watched"]["tip"]["value"]
 report, done = watched(PULLED, "{relative_error: 0.001, of: tip}", order=2, ranks=2)
 adaption = report["adaption"]
 check(adaption["met"] and adaption["of"] == "tip" and "of tip" in done.output, f"met: {adaption}")
-check(abs(report["watched"]["tip"]["value"] / fine - 1) < 0.001, f"{report['watched']['tip']}, exact {fine}")
+check(abs(report["watched"]["tip"]["value"] / finest["tip"] - 1) < 0.001, f"{report['watched']['tip']}, exact {finest}")
 check(len(adaption["levels"]) > 1, f"the first mesh is too coarse: {adaption}")
 
 # Reactions that are watched, by default: the solve stops early, and both errors of the adjoint problem count as a product.
@@ -121,9 +121,9 @@ for moduli, ratio, least, most in ("1000", "0.3", 0.7, 1.5), ("[50000, 50, 50]",
         check(0 < left < 0.6, f"{moduli}, {name}: {coarse[name]}, {middle[name]}, {value}")
         fine[name] += (value - middle[name]) * left / (1 - left)
     for order in 1, 2:
-        exact = values(beam(moduli, ratio, order, *TIGHT))
+        exact = middle if order == 2 else values(beam(moduli, ratio, order, *TIGHT))
         by_ranks = []
-        for ranks in (1, 4) if order == 2 else (1,):
+        for ranks in (1, 2) if order == 2 else (1,):
             report = beam(moduli, ratio, order, ranks=ranks)
             by_ranks.append(values(report))
             check(report["solver"]["stopped"] and report["solver"]["iterations"] <= 8, f"{moduli}: {report['solver']}")

@@ -117,11 +117,11 @@ def watched(case, order, divisions, ranks=1, text=""):
     return report["watched"], done
 
 
-def ratios_hold(name, case, fine, coarse, skip=()):
+def ratios_hold(name, case, fine, coarse, skip=(), several=(1,)):
     exact, _ = watched(case, 2, fine)
     for order, divisions in coarse:
         first = None
-        for ranks in fewer((1, 2)) if order == 2 else (1,):
+        for ranks in several if order == 2 else (1,):
             found, _ = watched(case, order, divisions, ranks)
             first = first or found
             for key, value in found.items():
@@ -133,17 +133,17 @@ def ratios_hold(name, case, fine, coarse, skip=()):
 
 
 BEAMS = (1, "20, 4, 4"), (2, "10, 2, 2")
-ratios_hold("a moved end", MOVED, "20, 4, 4", BEAMS)
+ratios_hold("a moved end", MOVED, "20, 4, 4", BEAMS, several=(1, 2))
 ratios_hold("an end that slides", SLID, "20, 4, 4", BEAMS, skip=("along",))
 ratios_hold("bent", BENT, "20, 4, 4", BEAMS)
 # By a hierarchy as by factors: one that was made before the body turned found a third.
 TURNED = BENT.split("  b:")[0].replace("accuracy: {relative_residual: 1e-9}\n", "").replace("[10,", "[4,").replace("[0, 0, 1]", "[0, 0, 4]")
 tips = [watched(TURNED, 2, "8, 4, 4", text=f"solver: {{method: {by}}}\n")[0]["tip"]["error"] for by in ("metric", "direct")]
 check(0.8 < tips[0] / tips[1] < 1.25, f"the error of a tip by a hierarchy and by factors: {tips}")
-ratios_hold("a rigid face", RIGID, "20, 4, 4", BEAMS)
+ratios_hold("a rigid face", RIGID, "20, 4, 4", BEAMS, several=(1, 2))
 ratios_hold("a thin plate", PLATE, "20, 20, 2", ((2, "10, 10, 1"),))
-ratios_hold("a twisted bar", WOUND, "16, 8, 8", ((2, "8, 4, 4"),))
-ratios_hold("a bar on a bed", BED, "16, 8, 8", ((2, "8, 4, 4"),))
+ratios_hold("a twisted bar", WOUND, "16, 8, 8", ((2, "8, 4, 4"),), several=(1, 2))
+ratios_hold("a bar on a bed", BED, "16, 8, 8", ((2, "8, 4, 4"),), several=(2,))
 # The truth is 13 %; what a stiff bed takes at vertices, which nothing keeps near it, made 82 % of that.
 for ranks in fewer((1, 2)):
     done, report, _ = solve(STIFF_BED.replace("ORDER", "2").replace("DIVISIONS", "8, 4, 4"), ranks=ranks, folder=folder)
@@ -158,9 +158,9 @@ for size, whole in ("20, 20, 0.5", False), ("20, 20, 20", True):
     done, report, _ = solve(case.replace("ORDER", "2").replace("DIVISIONS", "10, 10, 1" if not whole else "5, 5, 5"), folder=folder)
     check(report["answer_error"]["displacement_is_least"] == (not whole), f"{size}: {report['answer_error']}")
     check((" at least " in done.output) == (not whole), done.output)
-ratios_hold("a cell", CELL, "8, 8, 8", ((1, "6, 6, 6"), (2, "3, 3, 3")))
+ratios_hold("a cell", CELL, "8, 8, 8", ((1, "6, 6, 6"), (2, "3, 3, 3")), several=(1, 2))
 for material in "0.5", "0.499":
-    ratios_hold(f"nu {material}", MIXED.replace("0.5}", material + "}"), "20, 3, 3", ((2, "10, 2, 2"),))
+    ratios_hold(f"nu {material}", MIXED.replace("0.5}", material + "}"), "20, 3, 3", ((2, "10, 2, 2"),), several=(1, 2) if material == "0.5" else (1,))
 # Statics: the mean axial stress of a bar that is loaded at its ends alone is the pull over its section. So are their errors.
 found, _ = watched(MIXED, 2, "10, 2, 2")
 for part in "value", "error":

@@ -22,7 +22,7 @@ watch:
   tip: {displacement: {nearest: [4, 1, 0]}, component: z}
 """
 LADDER = ["--tolerances", "1e-2,1e-8"]
-SHORT = [*LADDER, "--refinements", "0,1", "--accuracies", "-"]
+SHORT = [*LADDER, "--orders", "1", "--refinements", "0,1", "--accuracies", "-"]
 
 
 def run(*arguments, ranks=1, folder=None):
@@ -154,17 +154,18 @@ large_rotation: off
     def test_ranks_do_not_change_the_answers(self):
         answers = []
         for ranks in (1, 2):
-            found = json.loads(self.cost("--tolerances", "1e-11", "--refinements", "0,1", "--accuracies", "-", "--json", "-", ranks=ranks).stdout)
+            found = json.loads(self.cost("--tolerances", "1e-11", "--refinements", "1", "--accuracies", "-", "--json", "-", ranks=ranks).stdout)
             answers.append([one["answers"]["tip"]["value"] for one in found["runs"]])
         for one, two in zip(*answers):
             self.assertAlmostEqual(one, two, delta=1e-9 * abs(one))
 
     def test_max_time_leaves_runs_out(self):
-        found = json.loads(self.cost(*LADDER, "--max-time", "1e-6", "--json", "-").stdout)
+        table = self.cost(*LADDER, "--max-time", "1e-6", "--json", "p.json").stdout
+        with open(self.path("p.json")) as stream:
+            found = json.load(stream)
         states = [one["state"] for one in found["runs"]]
         self.assertEqual(states, ["done"] + 13 * ["not run"])
         self.assertTrue(found["runs"][1]["reason"].startswith("about "))
-        table = self.cost(*LADDER, "--max-time", "1e-6").stdout
         self.assertEqual(table.count("not run (about "), 11)
         self.assertEqual(table.count("not run (no time is left)"), 2)
 
