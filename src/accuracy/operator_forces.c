@@ -186,7 +186,8 @@ static void find_forces(const Cells *cells, const OstElement *element, OstFormul
                         const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions)
 {
     const OstElasticity *elasticity = &cells->batch.elasticity;
-    if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !elasticity->by_mean && !elasticity->mixed)
+    if (cells->nodes == 4 && !w && formulation == OST_FORMULATION_LINEAR && !cells->turned_by && !elasticity->by_mean &&
+        !elasticity->mixed)
         ost_linear_tets_forces(cells->batch.x, elasticity, cells->rule, u, at_nodes, at_functions);
     else if (cells->nodes == 10 && (cells->straight || !cells->state) && is_plain(cells, formulation))
         ost_straight_forces(cells->batch.x, elasticity, cells->rule, u, w, at_nodes, at_functions);
