@@ -436,7 +436,7 @@ def rigid_faces_turn_far():
     check(hinged["energy"] < 1e-20, f"a body that turns about a hinge has the energy {hinged['energy']}")
     near(hinged["x"], 8 * math.cos(angle) - 8, 1e-9, "the end of a body that turns about a hinge")
     force = "{on: {boundary: _xmax}, total_force: [0, 0.06, 0.03]AT}"
-    lever = watched(*slender(clamp, "[8, 0.2, 0.25]", force.replace("AT", ", at: [11, 0.2, 0.25]")))
+    lever = watched(*slender(clamp, "[8, 0.2, 0.25]", force.replace("AT", ", at: [11, 0.2, 0.25]")), ranks=(3,))
     text, folder = slender(clamp, "[]", force.replace("AT", ""), 11)
     stiff = watched(text.replace(", {on: {boundary: _xmax}, rigid: []}", ""), folder, ranks=(1,))
     for name in ("x", "y", "z", "clamp", "energy"):
@@ -478,7 +478,7 @@ def levers_turn_far():
     text = SLENDER.replace("_xmin}, START}", "__xmin}, START}, {on: {boundary: _xmin}, tied_to: {boundary: __xmax}, tolerance: 0.6}")
     text = re.sub(r", \{region: stiff[^}]*\}", "", text.replace("LOADS\n", "").replace("[8, 0, 0]", "[8.5, 0, 0]").replace("_xmin}, about", "__xmin}, about"))
     end = f"{{at: [8.5, 0.2, 0.25], rotation: [0, 0, {angle}]}}"
-    bent = watched(text.replace("START", "displacement: [0, 0, 0]").replace("END", end).replace("on\n", "auto\n"), folder)
+    bent = watched(text.replace("START", "displacement: [0, 0, 0]").replace("END", end).replace("on\n", "auto\n"), folder, ranks=(3,))
     radius, half = 8 / angle, angle / 2
     near(bent["moment"], 1000 * 0.5 * 0.4**3 / 12 / radius, 0.01, "the moment")
     near(bent["clamp"], -bent["moment"], 1e-6, "the moment on the other side of the gap")
