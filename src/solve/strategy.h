@@ -58,8 +58,7 @@ OstStatus ost_analysis_find_buckling(const OstAnalysis *analysis, OstResult *res
 /* Collective. ost_left_out_find and ost_buckling_judge, on the account of large rotations. */
 OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *result);
 
-/* Local. Is linear theory, off by so much, the answer? Where `auto` allows for that, or has a tie across a gap, whose
- * lever turns by linear theory alone: it warns then. */
+/* Local. Is linear theory, off by so much, the answer, as `auto` allows? */
 int ost_nonlinear_stays_linear(const OstProblem *problem, double linear_error);
 
 /* Local. Has Newton's method a mixed form for the problem, should it be needed? Not without an energy. */
