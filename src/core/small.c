@@ -28,6 +28,17 @@ OstStatus ost_symmetric_eigen(OstContext *ctx, int n, const double *a, double *v
     return OST_SUCCESS;
 }
 
+OstStatus ost_symmetric_positive_part(OstContext *ctx, int n, double *a)
+{
+    double values[LARGEST_EIGEN], vectors[LARGEST_EIGEN * LARGEST_EIGEN];
+    OST_TRY(ost_symmetric_eigen(ctx, n, a, values, vectors));
+    memset(a, 0, sizeof(double) * (size_t)(n * n));
+    for (int m = 0; m < n; m++)
+        for (int k = 0; k < n * n; k++)
+            a[k] += fmax(values[m], 0.0) * vectors[n * m + k / n] * vectors[n * m + k % n];
+    return OST_SUCCESS;
+}
+
 int ost_cholesky(int n, double *a)
 {
     for (int j = 0; j < n; j++) {

@@ -105,6 +105,9 @@ static inline double ost_invert3(const double a[9], double b[9])
  * of `vectors` unless that is NULL. LAPACK's dsyev. */
 OstStatus ost_symmetric_eigen(OstContext *ctx, int n, const double *a, double *values, double *vectors);
 
+/* Local. Such a matrix without its negative eigenvalues. */
+OstStatus ost_symmetric_positive_part(OstContext *ctx, int n, double *a);
+
 /* Local. Lower Cholesky factor of a symmetric n×n matrix in place (upper part set to 0); returns 0, or the 1-based
  * index of the first pivot that is not positive. */
 int ost_cholesky(int n, double *a);

@@ -179,18 +179,10 @@ static OstStatus sum_nodes(const OstLinks *links, const double *force, double *t
 /* Of a component that is given nothing is left; of what softens, if it is to be definite. */
 static OstStatus restrict_to_free(OstContext *ctx, const OstRigidFace *face, int definite, double turning[9])
 {
-    double values[3], vectors[9];
     for (int k = 0; k < 9; k++)
         if (face->constrained[3 + k / 3] || face->constrained[3 + k % 3])
             turning[k] = 0.0;
-    if (!definite)
-        return OST_SUCCESS;
-    OST_TRY(ost_symmetric_eigen(ctx, 3, turning, values, vectors));
-    memset(turning, 0, 9 * sizeof *turning);
-    for (int m = 0; m < 3; m++)
-        for (int k = 0; k < 9; k++)
-            turning[k] += fmax(values[m], 0.0) * vectors[3 * m + k / 3] * vectors[3 * m + k % 3];
-    return OST_SUCCESS;
+    return definite ? ost_symmetric_positive_part(ctx, 3, turning) : OST_SUCCESS;
 }
 
 static OstStatus turn_faces(const OstProblem *problem, double t, const double *force, int definite, double *turning)

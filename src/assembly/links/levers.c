@@ -142,17 +142,6 @@ static void find_bending(const Frame *frame, const double force[3], double acros
         }
 }
 
-static OstStatus make_definite(OstContext *ctx, double bending[36])
-{
-    double values[6], vectors[36];
-    OST_TRY(ost_symmetric_eigen(ctx, 6, bending, values, vectors));
-    memset(bending, 0, 36 * sizeof *bending);
-    for (int m = 0; m < 6; m++)
-        for (int k = 0; k < 36; k++)
-            bending[k] += fmax(values[m], 0.0) * vectors[6 * m + k / 6] * vectors[6 * m + k % 6];
-    return OST_SUCCESS;
-}
-
 OstStatus ost_levers_bend(const OstLinks *links, const double *u, const double *out_of_balance, int definite,
                           double *bending)
 {
@@ -166,7 +155,7 @@ OstStatus ost_levers_bend(const OstLinks *links, const double *u, const double *
         find_frame(lever, ost_link_of(links, lever->node), place, &frame);
         find_bending(&frame, out_of_balance + 3 * (size_t)lever->node, lever->across, bending + 36 * (size_t)i);
         if (definite)
-            status = make_definite(links->ctx, bending + 36 * (size_t)i);
+            status = ost_symmetric_positive_part(links->ctx, 6, bending + 36 * (size_t)i);
     }
     OST_FREE(place);
     return ost_agree(links->ctx, status);
