@@ -147,10 +147,11 @@ OstStatus ost_stage_solve(OstStage *stage)
     OstStatus status = ost_scene_problem(stage->scene, &stage->problem);
     OST_THEN(ost_analysis_create(stage->problem, &stage->c.solver, &stage->analysis));
     if (status == OST_SUCCESS) {
-        stage->analysis->start = stage->start;
+        stage->analysis->start = stage->starts_turned ? NULL : stage->start;
+        stage->analysis->pose = stage->starts_turned ? stage->start : NULL;
         stage->analysis->leaves_reactions = 1;
         status = ost_analysis_solve(stage->analysis, 1U << OST_FIELD_ERROR, &stage->result);
-        stage->analysis->start = NULL;
+        stage->analysis->start = stage->analysis->pose = NULL;
     }
     if (status == OST_SUCCESS && stage->result->answer.known) {
         status = ost_agree(stage->ctx, learn(stage));
@@ -174,6 +175,7 @@ static OstStatus solve_again(OstStage *stage)
     const size_t size = 3 * (size_t)stage->scene->mesh->node_count;
     OST_TRY(ost_agree(stage->ctx, OST_NEW(stage->ctx, &stage->start, size)));
     memcpy(stage->start, stage->result->displacement, size * sizeof *stage->start);
+    stage->starts_turned = stage->result->newton.used;
     ost_result_destroy(&stage->result);
     OST_FREE(stage->fall);
     return ost_stage_solve(stage);
@@ -202,11 +204,13 @@ OstStatus ost_stage_finish(OstStage *stage)
 
 /* --- refining --- */
 
-/* The answer of linear theory is a start for the next; that of large rotations is not, as each level solves linearly
- * first. */
+/* A start for the next level. Newton's method comes to rest sooner from what linear theory predicts than from a pose
+ * that is farther off than this. */
 static OstStatus carry_answer(const OstStage *stage, OstStage *next)
 {
-    if (stage->result->newton.used)
+    static const double near = 0.5;
+    next->starts_turned = stage->result->newton.used;
+    if (next->starts_turned && !(stage->result->answer.relative < near))
         return OST_SUCCESS;
     OST_TRY(ost_agree(next->ctx, OST_NEW(next->ctx, &next->start, 3 * (size_t)next->scene->mesh->node_count)));
     return ost_bisection_carry(next->bisection, 3, stage->result->displacement, next->start);

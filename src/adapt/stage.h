@@ -15,6 +15,7 @@ typedef struct Stage {
     OstScene *scene;
     OstBisection *bisection; /* of the scene's mesh; the finest level has it */
     double *start;           /* the answer of the level before, on this mesh; or NULL */
+    int starts_turned;       /* is it one of large rotations? */
     OstProblem *problem;     /* with the analysis, until the next level is made: the last one finds reactions' errors */
     OstAnalysis *analysis;
     OstResult *result;

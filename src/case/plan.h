@@ -63,8 +63,9 @@ typedef struct OstPlan {
      * halos; K by blocks, its pattern and its scatter map; the solver's copies and vectors; arrays of the effects; the
      * output files. */
     double bytes_mesh, bytes_matrix, bytes_solver, bytes_effects, bytes_output;
-    double bytes_in_all; /* at the peak: the solve, the estimate of the error after it, or strains and stresses when
-                            the solver is gone */
+    double bytes_company; /* on top, of load cases that are solved beside the first, as far as there is room */
+    double bytes_in_all;  /* at the peak: the solve, the estimate of the error after it, or strains and stresses when
+                             the solver is gone */
 } OstPlan;
 
 /* What is known of the mesh when a plan is made: from the shape or the file, or the mesh itself. */

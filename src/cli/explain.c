@@ -265,7 +265,9 @@ static void print_plan(const OstCase *c, const OstPlan *plan, const Future *futu
     print_bytes("stiffness", plan->bytes_matrix);
     print_bytes("solver", plan->bytes_solver);
     print_bytes("effects", plan->bytes_effects);
-    print_bytes("at the peak", plan->bytes_in_all);
+    if (plan->bytes_company > 0.0)
+        print_bytes("load cases", plan->bytes_company);
+    print_bytes("at the peak", plan->bytes_in_all + plan->bytes_company);
     print_bytes("with libraries", future->forecast.with_libraries);
     print_bytes("free now", plan->facts.free_memory);
     if (future->forecast.with_libraries > plan->facts.free_memory)
@@ -296,9 +298,9 @@ static OstStatus write_json(const OstCase *c, const OstPlan *plan, const Future 
         (json_int_t)plan->nodes, "tets", (json_int_t)plan->tets, "unknowns_at_most", (json_int_t)plan->unknowns,
         "ranks", ranks, "ranks_at_least", plan->least_ranks, "warnings", ost_json_warnings(c->ctx), "bytes", "mesh",
         plan->bytes_mesh, "stiffness", plan->bytes_matrix, "solver", plan->bytes_solver, "effects", plan->bytes_effects,
-        "in_all", plan->bytes_in_all, "free", plan->facts.free_memory, "output_file", plan->bytes_output,
-        "with_libraries", future->forecast.with_libraries, "seconds", seconds_json(&future->forecast), "rates",
-        future->rates, "iterations", future->forecast.iterations);
+        "in_all", plan->bytes_in_all + plan->bytes_company, "free", plan->facts.free_memory, "output_file",
+        plan->bytes_output, "with_libraries", future->forecast.with_libraries, "seconds",
+        seconds_json(&future->forecast), "rates", future->rates, "iterations", future->forecast.iterations);
     if (!root)
         return OST_RAISE(c->ctx, OST_LIBRARY_FAILED, "%s: the plan cannot be written as JSON (is its title UTF-8?)",
                          c->path);

@@ -87,7 +87,15 @@ int ost_nonlinear_may_be_mixed(const OstProblem *problem)
     return problem->beyond_linear != OST_FORMULATION_CLASSICAL;
 }
 
-/* The state without load, and what the linear solution predicts. */
+/* Is a pose known that a load step can go to at once? A rigid face goes along its rotation, which a pose does not
+ * tell; and it has no pressures. */
+static int has_pose(const OstAnalysis *analysis)
+{
+    const OstProblem *problem = analysis->problem;
+    return analysis->pose && !problem->pressures && !ost_problem_has_turning(problem);
+}
+
+/* The state without load, and what the linear solution predicts, or the answer on a coarser mesh. */
 static OstStatus start(const OstAnalysis *analysis, const OstResult *result, OstNewtonState *state)
 {
     const OstProblem *problem = analysis->problem;
@@ -100,6 +108,10 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
         OST_TRY(ost_pressure_complete(problem->pressures, state->slope + nodes));
     }
     state->step = ost_newton_first_step(result->newton.linear_rotation);
+    if (has_pose(analysis)) {
+        memcpy(state->slope, analysis->pose, nodes * sizeof(double));
+        state->step = 1.0;
+    }
     return OST_SUCCESS;
 }
 

@@ -44,6 +44,7 @@ struct OstAnalysis {
                                do. NULL: it is alone */
     const OstLoadSum *sum;  /* linear theory: what the load is a sum of; or NULL */
     const double *start;    /* a displacement (3 × node_count) near that of the linear problem, or NULL */
+    const double *pose;     /* likewise, near that of large rotations */
 };
 
 extern const OstStrategy ost_linear_strategy;    /* linear.c */

@@ -122,6 +122,18 @@ folder = folder_with(CASE)
 sound = run("check", "beam.yaml", folder=folder)
 check(sound.exit_code == 0 and "4 load cases to beam.vtkhdf, a step for each" in sound.output, sound.output + sound.errors)
 check("load cases           4" in run("explain", "beam.yaml", folder=folder).output, "explain says nothing of load cases")
+
+block = folder_with("""mesh: {block: {size: [1, 1, 1], divisions: [10, 10, 10]}}
+materials: [{region: all, youngs_modulus: 1000, poissons_ratio: 0.3}]
+constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]
+large_rotation: off
+cases:
+""" + "".join(f"  - {{name: c{k}, loads: [{{on: {{boundary: {side}}}, traction: [1, {k}, 2]}}]}}\n"
+              for k, side in enumerate(("xmax", "ymin", "ymax", "zmin", "zmax"))), "block.yaml")
+foretold = json.loads(run("explain", "block.yaml", "--json", folder=block).output)["bytes"]["in_all"]
+run("solve", "block.yaml", "-q", "--json", "block.json", folder=block)
+taken = read_json(block, "block.json")["ledger"]["peak_bytes"]
+check(0.87 < foretold / taken < 1.15, f"cases that are solved together: {foretold} bytes foretold, {taken} taken")
 for arguments, words in ((("effects", "beam.yaml"), "there are 4 load cases, and this command takes one: name it, as in --case weight"),
                          (("cost", "beam.yaml"), "name it, as in --case weight"),
                          (("solve", "beam.yaml", "--case", "pull"), "did you mean 'push'?"),

@@ -24,7 +24,7 @@ static const double nothing = 1e-10;
 typedef struct Work {
     double *force, *load, *even; /* 3 × owned_nodes: of one direction; and what both have in common */
     double *residual, *taken;    /* 3 × rows, and the pressures, ghosts included */
-    double *turned;              /* 3 × node_count: the displacement, with rigid faces in their shape */
+    double *turned; /* 3 × node_count: the displacement, with rigid faces and levers in their shape; NULL: as it is */
 } Work;
 
 static void release(Work *work)
@@ -35,6 +35,12 @@ static void release(Work *work)
     OST_FREE(work->residual);
     OST_FREE(work->taken);
     OST_FREE(work->turned);
+}
+
+static int has_shapes(const OstProblem *problem)
+{
+    const OstLinks *links = problem->supports->links;
+    return links && (links->face_count > 0 || links->gaps);
 }
 
 static OstStatus allocate(const OstProblem *problem, Work *work)
@@ -48,7 +54,8 @@ static OstStatus allocate(const OstProblem *problem, Work *work)
     OST_THEN(OST_NEW(ctx, &work->even, owned));
     OST_THEN(OST_NEW(ctx, &work->residual, unknowns));
     OST_THEN(OST_NEW(ctx, &work->taken, unknowns));
-    OST_THEN(OST_NEW(ctx, &work->turned, 3 * (size_t)problem->mesh->node_count));
+    if (has_shapes(problem))
+        OST_THEN(OST_NEW(ctx, &work->turned, 3 * (size_t)problem->mesh->node_count));
     return ost_agree(ctx, status);
 }
 
@@ -141,15 +148,18 @@ static void reverse(OstResult *result)
 static OstStatus subtract_half(const OstProblem *problem, const OstResult *result, double sign, Work *work)
 {
     const OstSystem *system = problem->system;
-    const OstLinks *links = problem->supports->links;
-    const double share = sign * ost_problem_eigen_share(problem, result->t), *u = work->turned;
-    memcpy(work->turned, result->displacement, 3 * (size_t)problem->mesh->node_count * sizeof *work->turned);
-    OST_TRY(ost_rigid_faces_move(links, NULL, result->displacement, 1.0, work->turned));
-    OST_TRY(ost_levers_put(links, work->turned));
-    OST_TRY(ost_problem_turn(problem, u));
+    const double share = sign * ost_problem_eigen_share(problem, result->t), *u = result->displacement;
+    if (work->turned) {
+        const OstLinks *links = problem->supports->links;
+        memcpy(work->turned, u, 3 * (size_t)problem->mesh->node_count * sizeof *work->turned);
+        OST_TRY(ost_rigid_faces_move(links, NULL, u, 1.0, work->turned));
+        OST_TRY(ost_levers_put(links, work->turned));
+        OST_TRY(ost_problem_turn(problem, work->turned));
+        u = work->turned;
+    }
     OST_TRY(ost_agree(problem->ctx, ost_internal_force_of(problem->mesh, result->field, OST_FORMULATION_CONSISTENT,
                                                           share, u, work->force, NULL)));
-    if (problem->follower || (links && (links->face_count > 0 || links->gaps))) {
+    if (problem->follower || work->turned) {
         OstProblem turned = *problem;
         ost_problem_take_formulation(&turned, OST_FORMULATION_CONSISTENT);
         ost_problem_load(&turned, result->t, u, work->load);

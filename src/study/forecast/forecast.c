@@ -189,6 +189,6 @@ void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *ra
     forecast->seconds[OST_STAGE_ASSEMBLY] += of_gradients;
     forecast->seconds[OST_STAGE_SOLVE] += of_buckling;
     forecast->in_all += of_gradients + of_buckling;
-    forecast->bytes = plan->bytes_in_all;
-    forecast->with_libraries = plan->bytes_in_all + rates->process_bytes * ranks;
+    forecast->bytes = plan->bytes_in_all + plan->bytes_company;
+    forecast->with_libraries = forecast->bytes + rates->process_bytes * ranks;
 }
