@@ -116,6 +116,15 @@ static int count_reactions(const OstCase *c)
     return count;
 }
 
+/* Those that statics gives too. */
+static int watches_reaction(const OstCase *c)
+{
+    int any = 0;
+    for (int w = 0; w < c->watch_count; w++)
+        any |= c->watches[w].kind == OST_WATCH_REACTION;
+    return any;
+}
+
 /* As in solve/reactions/mean_stress.c. */
 static int is_uneven(const OstCase *c)
 {
@@ -223,7 +232,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
                           ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
                           ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
-    plan->solves_to_residual = count_reactions(c) > 0 && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
+    plan->solves_to_residual = watches_reaction(c) && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
     plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
                   (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);
