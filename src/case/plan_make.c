@@ -116,7 +116,7 @@ static int count_reactions(const OstCase *c)
     return count;
 }
 
-/* Those that statics gives too. */
+/* Is any reaction watched, be it one that statics gives? */
 static int watches_reaction(const OstCase *c)
 {
     int any = 0;

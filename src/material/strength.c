@@ -54,7 +54,7 @@ static double tsai_wu_square(const OstStrength *strength, int i)
     return 1.0 / (strength->tension[i] * strength->compression[i]);
 }
 
-/* Of the squares of which what a pressure alone leaves is the difference. */
+/* Under pressure alone the form may cancel: what is left is rounding below this share of its squares. */
 static const double cancelled = 1e-14;
 
 static double tsai_wu(const OstStrength *strength, const double stress[6])

@@ -16,7 +16,7 @@
 
 enum { VERTICES = 4, NODES = 10, PARENTS = 4, MOST_PARTS = VERTICES * OST_MOST_CORNERS };
 
-/* What vertices move with: columns of the linear matrix. */
+/* To find the columns of the linear matrix with which a vertex moves. */
 typedef struct Vertices {
     const OstSystem *linear;
     OstRowNumbers rows;   /* where vertices follow others */
@@ -81,7 +81,7 @@ static OstLocal column_of(const Vertices *vertices, OstGlobal row)
     return matrix->rows + ost_numbers_find(matrix->columns - matrix->rows, vertices->of_column + matrix->rows, row);
 }
 
-/* A weight times a projector on the directions in which a leader is free. */
+/* The number w of a weight w P, with P the projector on the directions in which a leader is free. */
 static double scalar_of(const double weight[9])
 {
     double square = 0.0;
@@ -121,7 +121,7 @@ static void add_vertex(const Vertices *vertices, OstLocal vertex, double weight,
         add_part(parts, column_of(vertices, of.row[k]), weight * scalar_of(of.weight[k]));
 }
 
-/* The four largest, with the sum of all: between two faces that follow there may be more. */
+/* Keeps the four largest parts, scaled to the sum of all. There are more only at edges whose two ends follow faces. */
 static void put_parents(Parts *parts, OstLocal *parent, double *weight)
 {
     double all = 0.0, kept = 0.0;

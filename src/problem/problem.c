@@ -333,6 +333,22 @@ OstStatus ost_problem_force(const OstProblem *problem, double t, const double *u
     return OST_SUCCESS;
 }
 
+OstStatus ost_problem_out_of_balance(const OstProblem *problem, double t, const double *u, double **force)
+{
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    double *load = NULL;
+    OstStatus status = OST_NEW(problem->ctx, force, owned);
+    OST_THEN(OST_NEW(problem->ctx, &load, owned));
+    OST_THEN(ost_problem_force(problem, t, u, *force));
+    if (status == OST_SUCCESS) {
+        ost_problem_load(problem, t, u, load);
+        for (size_t i = 0; i < owned; i++)
+            (*force)[i] -= load[i];
+    }
+    OST_FREE(load);
+    return ost_agree(problem->ctx, status);
+}
+
 OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
                                        double *stress)
 {

@@ -88,6 +88,10 @@ double ost_problem_factor(const OstProblem *problem, int function, double t);
 /* Local. What of the eigenstrain acts at t. */
 double ost_problem_eigen_share(const OstProblem *problem, double t);
 
+/* Collective. ost_problem_force less the load (3 × owned_nodes, memory from the context): at free nodes what a solve
+ * has left, at others the reactions. */
+OstStatus ost_problem_out_of_balance(const OstProblem *problem, double t, const double *u, double **force);
+
 /* Local. ost_problem_force by linear theory, and the sum of the squared mean stresses of this rank's own tets. */
 OstStatus ost_problem_force_and_stress(const OstProblem *problem, double t, const double *u, double *force,
                                        double *stress);

@@ -144,24 +144,6 @@ int ost_problem_has_turning(const OstProblem *problem)
     return any;
 }
 
-/* What is out of balance at the nodes, but for forces that levers at rigid faces stand for. */
-static OstStatus find_out_of_balance(const OstProblem *problem, double t, const double *u, double **force)
-{
-    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    double *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, force, owned);
-    OST_THEN(OST_NEW(problem->ctx, &load, owned));
-    OST_THEN(ost_problem_force(problem, t, u, *force));
-    if (status == OST_SUCCESS) {
-        ost_problem_load(problem, t, u, load);
-        ost_problem_add_levers(problem, t, *force);
-    }
-    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
-        (*force)[i] -= load[i];
-    OST_FREE(load);
-    return ost_agree(problem->ctx, status);
-}
-
 /* Of the nodes of rigid faces. */
 static OstStatus sum_nodes(const OstLinks *links, const double *force, double *turning)
 {
@@ -214,7 +196,9 @@ OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const do
     OstStatus status = OST_NEW(problem->ctx, &turning->faces, turns ? 9 * (size_t)links->face_count : 0);
     OST_THEN(OST_NEW(problem->ctx, &turning->levers, 36 * (size_t)links->lever_count));
     status = ost_agree(problem->ctx, status);
-    OST_THEN(find_out_of_balance(problem, t, u, &force));
+    OST_THEN(ost_problem_out_of_balance(problem, t, u, &force));
+    if (status == OST_SUCCESS) /* forces at levers are not those that they are spread as */
+        ost_problem_add_levers(problem, t, force);
     if (turns)
         OST_THEN(turn_faces(problem, t, force, definite, turning->faces));
     OST_THEN(ost_levers_bend(links, u, force, definite, turning->levers));

@@ -54,8 +54,8 @@ static const double *places(const OstSolverGeometry *geometry)
     return geometry->moved ? geometry->moved : geometry->coordinates;
 }
 
-/* A row's parents, and its arms from them. They balance each other, as it lies between its parents; but where it lies
- * beside a vertex that follows one on the other side of a periodic cell, there are none. */
+/* A row's parents, and its arms from them. A row lies between its parents, so its arms balance. Where they do not, a
+ * parent is on the other side of a periodic cell, and the arms are set to 0. */
 typedef struct Parents {
     int count;
     OstLocal column[PARENTS];

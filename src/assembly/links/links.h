@@ -107,8 +107,8 @@ OstStatus ost_links_add(OstLinks *links, OstLocal node, int count, const OstLead
 /* Local. How the node that was added last follows in the linear mesh. */
 void ost_links_add_corners(OstLinks *links, int count, const OstGlobal *corner, const double (*weight)[9]);
 
-/* Collective. The links of a quadratic mesh's vertices, on the linear mesh of ost_mesh_linear; not complete. NULL where
- * they do not follow vertices alone that follow nobody. */
+/* Collective. The links of a quadratic mesh's vertices, on the linear mesh of ost_mesh_linear; not complete. NULL if
+ * there are rigid faces or levers, or a vertex would follow one that itself follows others. */
 OstStatus ost_links_on_vertices(const OstLinks *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                 OstLinks **links);
 

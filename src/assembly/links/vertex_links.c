@@ -7,8 +7,7 @@
 
 #include <string.h>
 
-/* Of the nodes that lead on this rank and elsewhere the numbers in the linear mesh; -1: one that follows, or is no
- * vertex. */
+/* The number in the linear mesh of each node in the halo's arrays; -1: the node follows others, or is no vertex. */
 static OstStatus number_leaders(const OstLinks *quadratic, const OstMesh *linear, const OstLocal *node_of_vertex,
                                 OstGlobal **number)
 {
@@ -22,7 +21,7 @@ static OstStatus number_leaders(const OstLinks *quadratic, const OstMesh *linear
     return ost_agree(quadratic->ctx, ost_halo_import(quadratic->halo, sizeof **number, *number));
 }
 
-/* Sets *fails where it does not follow such vertices alone. */
+/* Adds the link of a vertex. Sets *fails if a node that it follows has no number. */
 static OstStatus add_vertex(const OstLink *link, const OstGlobal *number, OstLocal vertex, OstLinks *links, int *fails)
 {
     static const double nothing[3] = {0.0};

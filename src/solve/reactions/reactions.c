@@ -69,23 +69,6 @@ typedef struct Search {
     const double *imbalance; /* 3 × owned_nodes: internal force less load */
 } Search;
 
-/* The imbalance: at free nodes, what the solve left; at others, the reactions. */
-static OstStatus find_imbalance(const OstProblem *problem, double t, const double *u, double **imbalance)
-{
-    const size_t numbers = 3 * (size_t)problem->mesh->owned_nodes;
-    double *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, imbalance, numbers);
-    OST_THEN(OST_NEW(problem->ctx, &load, numbers));
-    OST_THEN(ost_problem_force(problem, t, u, *imbalance));
-    if (status == OST_SUCCESS) {
-        ost_problem_load(problem, t, u, load);
-        for (size_t i = 0; i < numbers; i++)
-            (*imbalance)[i] -= load[i];
-    }
-    OST_FREE(load);
-    return ost_agree(problem->ctx, status);
-}
-
 /* The rigid motion along the reaction's direction, or about its axis. */
 static void find_rigid(const Search *search)
 {
@@ -243,7 +226,7 @@ OstStatus ost_reactions_by_statics(const OstProblem *problem, const OstWatch *wa
         return OST_SUCCESS;
     OstStatus status =
         ost_agree(problem->ctx, OST_NEW(problem->ctx, &search.rigid, 3 * (size_t)problem->mesh->owned_nodes));
-    OST_THEN(find_imbalance(problem, t, u, &imbalance));
+    OST_THEN(ost_problem_out_of_balance(problem, t, u, &imbalance));
     search.imbalance = imbalance;
     OST_THEN(find_by_statics(&search, t, u, found));
     OST_FREE(search.rigid);
@@ -340,7 +323,7 @@ OstStatus ost_reactions_find(const OstProblem *problem, OstEstimate *estimate, O
     if (!ost_reactions_are_watched(problem))
         return OST_SUCCESS;
     OstStatus status = ost_agree(problem->ctx, OST_NEW(problem->ctx, &rigid, 3 * (size_t)problem->mesh->owned_nodes));
-    OST_THEN(find_imbalance(problem, t, u, &imbalance));
+    OST_THEN(ost_problem_out_of_balance(problem, t, u, &imbalance));
     OST_THEN(ost_mean_stresses_find(problem, estimate, solver, t, u, imbalance, tet_error, kept, found));
     for (int w = 0; w < c->watch_count && status == OST_SUCCESS && is_work(problem); w++) {
         Search search = {problem, &c->watches[w], {0}, rigid, imbalance};
