@@ -202,8 +202,6 @@ static void buckling(const OstEffectFacts *f, OstEffectState *state)
 {
     if (f->buckling == 0)
         off(state, "the case does not say buckling");
-    else if (!why_not_mixed(f))
-        off(state, "the mixed form has no buckling modes; element: {mixed: off} has them");
     else
         on(state, (264.0 * (f->buckling + 1.0) + 24.0 * f->buckling) * f->nodes,
            "the case says so: %d mode%s of the linear answer", f->buckling, f->buckling == 1 ? "" : "s");

@@ -37,7 +37,10 @@ static void take(const OstModes *modes, OstResult *result)
 
 static OstStatus find(const OstProblem *problem, OstSolver *solver, OstResult *result)
 {
-    const OstModesAim aim = {.modes = problem->buckling_modes, .tolerance = fine, .most_iterations = MOST_ITERATIONS};
+    const OstModesAim aim = {.modes = problem->buckling_modes,
+                             .tolerance = fine,
+                             .most_iterations = MOST_ITERATIONS,
+                             .mixed = problem->pressures != NULL};
     OstModes modes;
     OstStatus status = OST_SUCCESS;
     for (int m = 0; m < aim.modes; m++)
@@ -117,10 +120,10 @@ static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, 
 
 OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result)
 {
-    const OstModesAim aim = {.modes = 1,
-                             .tolerance = crude,
-                             .least = 1.0 / ost_near_buckling(problem->mesh),
-                             .most_iterations = MOST_TO_JUDGE};
+    OstModesAim aim = {.modes = 1,
+                       .tolerance = crude,
+                       .least = 1.0 / ost_near_buckling(problem->mesh),
+                       .most_iterations = MOST_TO_JUDGE};
     OstModes modes;
     int may = 0;
     if (!problem->conservative) /* no energy tells: it may begin to move long before */
@@ -130,12 +133,12 @@ OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstRe
         if (!may)
             return OST_SUCCESS;
         OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
+        if (problem->pressures && modes.softening[0] >= aim.least) { /* but they may hold the body */
+            aim.mixed = 1;
+            OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
+        }
         if (!(modes.softening[0] >= aim.least))
             return OST_SUCCESS;
-        if (problem->pressures) { /* they may hold the body: Newton's method tells */
-            result->newton.linear_error = fmax(result->newton.linear_error, modes.softening[0]);
-            return OST_SUCCESS;
-        }
         take(&modes, result);
     }
     if (result->buckling.factor[0] < near_enough)

@@ -7,7 +7,7 @@
 #include "problem/result_data.h"
 
 /* Collective. The lowest load factors at which the body of a linear answer buckles, as many as the problem asks for, in
- * result->buckling, and their modes (OST_EFFECT_BUCKLING). Not of a mixed form. */
+ * result->buckling, and their modes (OST_EFFECT_BUCKLING). */
 OstStatus ost_buckling_find(const OstProblem *problem, OstSolver *solver, OstResult *result);
 
 /* Local. Is buckling alone what linear theory is off by, and the load beyond it? Newton's method would then follow the
@@ -20,8 +20,8 @@ void ost_buckling_object(OstResult *result);
 
 /* Collective. Is a linear answer near buckling, or past it? Looks for it only where strains and the shape of the body
  * allow it, and no further than tells; raises result->newton.linear_error to 1 / load factor where that is below
- * 1.25. Of a mixed form the stiffness is taken without its pressures: the load factor is a lower bound,
- * and result->buckling stays empty. A load that has no work function is not judged. */
+ * 1.25. Of a mixed form the stiffness is taken without its pressures first, which tells that a body is far from it. A
+ * load that has no work function is not judged. */
 OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result);
 
 /* Local. The load factor below which buckling is warned of: twice as high for linear tets, which lock as they bend. */

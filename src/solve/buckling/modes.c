@@ -22,12 +22,14 @@ typedef struct Search {
     const OstProblem *problem;
     OstSolver *solver;
     const OstResult *result;
+    int mixed;          /* as OstModesAim.mixed */
     int block, columns; /* modes in work; columns filled */
     size_t n;           /* 3 × rows */
     double *room;       /* of all columns */
     double *x[MOST], *k[MOST], *s[MOST];
     double *ghosted;             /* 3 × matrix->columns */
     double *v[BLOCK], *f[BLOCK]; /* 3 × node_count, 3 × owned_nodes */
+    double *p[BLOCK], *volume;   /* of a mixed form: pressures of the columns filled last, and zeros; or NULL */
     double *turned[2];           /* 3 × node_count, 3 × owned_nodes: of loads that follow the surface; or NULL */
     OstTurning turning;          /* ost_problem_find_turning */
     double value[BLOCK], residual[BLOCK];
@@ -35,8 +37,8 @@ typedef struct Search {
 
 static void release(Search *search)
 {
-    OST_FREE(search->room, search->ghosted, search->v[0], search->f[0], search->turned[0], search->turned[1],
-             search->turning.faces, search->turning.levers);
+    OST_FREE(search->room, search->ghosted, search->v[0], search->f[0], search->p[0], search->volume);
+    OST_FREE(search->turned[0], search->turned[1], search->turning.faces, search->turning.levers);
 }
 
 static OstStatus allocate(Search *search)
@@ -44,11 +46,15 @@ static OstStatus allocate(Search *search)
     const OstProblem *problem = search->problem;
     OstContext *ctx = problem->ctx;
     const size_t nodes = 3 * (size_t)problem->mesh->node_count, owned = 3 * (size_t)problem->mesh->owned_nodes;
-    const size_t block = (size_t)search->block;
+    const size_t block = (size_t)search->block, pressures = search->mixed ? ost_problem_pressure_room(problem) : 0;
     OstStatus status = OST_NEW(ctx, &search->room, 9 * block * search->n);
     OST_THEN(OST_NEW(ctx, &search->ghosted, 3 * (size_t)problem->system->matrix->columns));
     OST_THEN(OST_NEW(ctx, &search->v[0], block * nodes));
     OST_THEN(OST_NEW(ctx, &search->f[0], block * owned));
+    if (search->mixed) {
+        OST_THEN(OST_NEW(ctx, &search->p[0], block * pressures));
+        OST_THEN(OST_NEW(ctx, &search->volume, (size_t)problem->pressures->owned));
+    }
     if (problem->follower) {
         OST_THEN(OST_NEW(ctx, &search->turned[0], nodes));
         OST_THEN(OST_NEW(ctx, &search->turned[1], owned));
@@ -62,6 +68,8 @@ static OstStatus allocate(Search *search)
     for (size_t c = 0; c < block; c++) {
         search->v[c] = search->v[0] + c * nodes;
         search->f[c] = search->f[0] + c * owned;
+        if (search->mixed)
+            search->p[c] = search->p[0] + c * pressures;
     }
     return OST_SUCCESS;
 }
@@ -107,6 +115,15 @@ static void add_turning(const Search *search, const double *x, double *forces)
     }
 }
 
+static OstStatus add_pressure(Search *search, double *pressure, double *forces)
+{
+    OST_TRY(
+        ost_agree(search->problem->ctx, ost_coupling_transpose(search->problem->coupling, pressure, search->ghosted)));
+    for (size_t i = 0; i < search->n; i++)
+        forces[i] += search->ghosted[i];
+    return OST_SUCCESS;
+}
+
 /* K x and -K_stress x of `count` columns from `first` on. */
 static OstStatus multiply(Search *search, int first, int count)
 {
@@ -116,6 +133,8 @@ static OstStatus multiply(Search *search, int first, int count)
     for (int c = 0; c < count; c++) {
         memcpy(search->ghosted, search->x[first + c], search->n * sizeof(double));
         OST_TRY(ost_block_matrix_apply(system->matrix, search->ghosted, search->k[first + c]));
+        if (search->mixed)
+            OST_TRY(add_pressure(search, search->p[c], search->k[first + c]));
         OST_TRY(ost_system_displacement(system, 0.0, search->x[first + c], search->v[c]));
     }
     ost_stress_force(problem->mesh, search->result->field, share, search->result->displacement, count, search->v,
@@ -132,9 +151,22 @@ static OstStatus multiply(Search *search, int first, int count)
     return OST_SUCCESS;
 }
 
-static OstStatus precondition(const Search *search, const double *r, double *z)
+/* How far both equations of a mixed form are solved: what a motion changes the volume by beyond what its pressures
+ * allow would cost energy that the search does not see. */
+static const double residual_of_mixed = 1e-6;
+
+/* Of the column `c` of those filled next. A mixed form is solved: of the subspace's motions the pressures are known. */
+static OstStatus precondition(const Search *search, int c, const double *r, double *z)
 {
     int found = 0;
+    if (search->mixed) {
+        const OstSaddle saddle = {search->problem->coupling, search->volume, search->p[c]};
+        OstSolveReport report;
+        ost_solver_aim(search->solver, (OstSolverAim){.relative_residual = residual_of_mixed, .crude = 1});
+        const OstStatus status = ost_solver_solve_mixed(search->solver, &saddle, r, z, &report);
+        ost_solver_aim(search->solver, (OstSolverAim){0});
+        return status;
+    }
     OST_TRY(ost_solver_precondition(search->solver, OST_CYCLE_WHOLE, r, z, &found));
     return found ? OST_SUCCESS : OST_RAISE(search->problem->ctx, OST_NOT_CONVERGED, "the solver has no strategy left");
 }
@@ -160,7 +192,7 @@ static OstStatus start(Search *search)
             }
         }
         OST_TRY(ost_system_take_rows(system, search->f[c], search->s[c]));
-        OST_TRY(precondition(search, search->s[c], search->x[c]));
+        OST_TRY(precondition(search, c, search->s[c], search->x[c]));
     }
     search->columns = search->block;
     return multiply(search, 0, search->block);
@@ -267,7 +299,7 @@ static OstStatus find_residuals(Search *search)
         double *z = search->x[search->block + c], *r = search->ghosted;
         for (size_t i = 0; i < search->n; i++)
             r[i] = search->s[c][i] - search->value[c] * search->k[c][i];
-        OST_TRY(precondition(search, r, z));
+        OST_TRY(precondition(search, c, r, z));
         search->residual[c] = ost_dot(search->n, r, z);
     }
     OST_TRY(ost_sum(search->problem->ctx, search->block, search->residual));
@@ -345,6 +377,7 @@ OstStatus ost_modes_find(const OstProblem *problem, OstSolver *solver, const Ost
     Search search = {.problem = problem,
                      .solver = solver,
                      .result = result,
+                     .mixed = aim->mixed,
                      .block = aim->modes + (aim->least > 0.0 ? 0 : SPARE),
                      .n = 3 * (size_t)problem->system->matrix->rows};
     *modes = (OstModes){.count = aim->modes};

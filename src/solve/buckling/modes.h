@@ -12,6 +12,8 @@ typedef struct OstModesAim {
     double tolerance; /* largest residual of a mode, relative to it: its load factor has an error of about the square */
     double least;     /* ends at once where no `softening` can reach this; 0: does not */
     int most_iterations;
+    int mixed; /* of a mixed form: its pressures hold, and it is solved where else a preconditioner is applied; 0: the
+                  stiffness is taken without them, which is less stiff */
 } OstModesAim;
 
 /* What a search found. `softening`: 1 / load factor of each mode, the largest first; 0 or less: no growth of this load
