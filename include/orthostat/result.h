@@ -76,9 +76,10 @@ typedef struct OstAnswerError {
     int known;                 /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
     int region;                /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;
-    double place[3]; /* centroid of the tet with the largest share */
-    double cut_off;  /* not in any of these: how much larger, as a share of its volume, the body would be if its surface
-                        were curved where faces meet at less than 40 degrees */
+    double place[3];  /* centroid of the tet with the largest share */
+    double cut_off;   /* not in any of these: what faces cut off the body, as a share of its volume, if its surface is
+                         meant to be curved where they meet at less than 40 degrees */
+    double filled_in; /* and what they add in hollows */
 } OstAnswerError;
 
 /* The load factors at which a body buckles by linear theory: its stiffness, and the stress of the linear answer times

@@ -60,6 +60,7 @@ static void drop_replaced(OstCase *c, int before)
         else
             c->constraints[kept++] = c->constraints[i];
     }
+    memset(c->constraints + kept, 0, (size_t)(c->constraint_count - kept) * sizeof *c->constraints); /* moved from */
     c->constraint_count = kept;
 }
 

@@ -181,9 +181,11 @@ static void print_misfits(const OstMesh *mesh, const OstMisfits *misfits)
 static void print_cut_off(const OstMeshReport *counts)
 {
     static const double least = 5e-4;
-    if (fabs(counts->cut_off) > least)
-        printf("  volume %.2g %% %s if the surface were curved where its faces meet at less than 40 degrees\n",
-               100.0 * fabs(counts->cut_off), counts->cut_off > 0.0 ? "larger" : "smaller");
+    const OstCutOff *cut_off = &counts->cut_off;
+    if (fmax(cut_off->lacking, cut_off->filled) > least)
+        printf("  its faces cut off %.2g %% of the volume, and add %.2g %% in hollows, if the surface is meant to be "
+               "curved where they meet at less than 40 degrees\n",
+               100.0 * cut_off->lacking, 100.0 * cut_off->filled);
 }
 
 void ost_mesh_report_print(const OstMesh *mesh, const OstMeshReport *counts, const char *path)
@@ -246,7 +248,8 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
                                         items[mesh->boundaries[b].dimension], "count",
                                         (json_int_t)counts->boundary_items[b], "area", counts->boundary_area[b]));
     json_t *root = json_pack(
-        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:f, s:o}",
+        "{s:o, s:I, s:I, s:i, s:f, s:[fff], s:[fff], s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:I, s:f, s:I, s:I, s:f, s:f, "
+        "s:o}",
         "file", ost_json_text(path), "nodes", (json_int_t)mesh->global_nodes, "tets", (json_int_t)mesh->global_tets,
         "order", mesh->nodes_per_tet == 10 ? 2 : 1, "surface_faces", counts->surface_faces, "low", counts->low[0],
         counts->low[1], counts->low[2], "high", counts->high[0], counts->high[1], counts->high[2], "volume",
@@ -254,7 +257,8 @@ OstStatus ost_mesh_report_json(const OstMesh *mesh, const OstMeshReport *counts,
         quality_json(counts), "regions", regions, "boundaries", boundaries, "components",
         parts_json(counts->components), "coincident_vertices", (json_int_t)counts->coincident, "coincident_within",
         counts->tolerance, "cracked_faces", (json_int_t)counts->misfits.cracked, "misfit_faces",
-        (json_int_t)counts->misfits.faces, "cut_off", counts->cut_off, "warnings", ost_json_warnings(mesh->ctx));
+        (json_int_t)counts->misfits.faces, "cut_off", counts->cut_off.lacking, "filled_in", counts->cut_off.filled,
+        "warnings", ost_json_warnings(mesh->ctx));
     if (!root)
         return OST_RAISE(mesh->ctx, OST_LIBRARY_FAILED,
                          "%s: what was found cannot be written as JSON (are its names UTF-8?)", path);

@@ -12,7 +12,7 @@ enum { OST_QUALITY_BINS = 10 };
 typedef struct OstMeshReport {
     double low[3], high[3];
     double volume, shortest, longest; /* of the tets, of their edges */
-    double cut_off;                   /* by plane faces from a curved surface, over the volume (ost_mesh_cut_off) */
+    OstCutOff cut_off;
     double least_quality, mean_quality;
     OstGlobal worst_tet; /* its label */
     OstGlobal bins[OST_QUALITY_BINS];

@@ -70,7 +70,7 @@ static int compare_sides(const void *a, const void *b)
 }
 
 /* Between a smooth surface that bends by an angle across a side, and the faces beside it: c³ / (12 R) for each length
- * of a cylinder of radius R, of which the faces are chords c. */
+ * of a cylinder of radius R, of which the faces are chords c. Less than 0 in a hollow. */
 static double volume_at(const Side *a, const Side *b)
 {
     double turn[3];
@@ -82,40 +82,48 @@ static double volume_at(const Side *a, const Side *b)
     return angle * length * (a->width * a->width - a->width * b->width + b->width * b->width) / 12.0;
 }
 
-static double cut_off_volume(Side *sides, OstLocal count)
+/* volume[0]: what is cut off; volume[1]: what is added in hollows. */
+static void find_volumes(Side *sides, OstLocal count, double volume[2])
 {
-    double volume = 0.0;
     qsort(sides, (size_t)count, sizeof *sides, compare_sides);
     for (OstLocal first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count && compare_sides(&sides[first], &sides[end]) == 0;)
             end++;
-        if (end == first + 2)
-            volume += volume_at(&sides[first], &sides[first + 1]);
+        if (end == first + 2) {
+            const double between = volume_at(&sides[first], &sides[first + 1]);
+            volume[between < 0.0] += fabs(between);
+        }
     }
-    return volume;
 }
 
-OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share)
+static OstStatus find(const OstMesh *mesh, OstCutOff *cut)
 {
     OstSurface *own = NULL;
     const OstSurface *surface = mesh->surface;
     Side *sides = NULL;
-    double volume[2] = {0.0, 0.0};
-    *share = 0.0;
+    double volume[3] = {0.0, 0.0, 0.0};
     if (!surface) /* the whole is not needed */
         OST_TRY(ost_surface_create(mesh, mesh->at_surface, &own));
     if (own)
         surface = own;
     OstStatus status = ost_agree(mesh->ctx, OST_NEW(mesh->ctx, &sides, 3 * (size_t)surface->count));
     if (status == OST_SUCCESS) {
-        volume[0] = cut_off_volume(sides, list_sides(mesh, surface, sides));
+        find_volumes(sides, list_sides(mesh, surface, sides), volume);
         for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
-            volume[1] += ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet));
-        status = ost_sum(mesh->ctx, 2, volume);
+            volume[2] += ost_tet_volume(mesh->coordinates, ost_mesh_nodes_of(mesh, tet));
+        status = ost_sum(mesh->ctx, 3, volume);
     }
     OST_FREE(sides);
     ost_surface_destroy(&own);
-    if (status == OST_SUCCESS && volume[1] > 0.0)
-        *share = volume[0] / volume[1];
+    if (status == OST_SUCCESS && volume[2] > 0.0)
+        *cut = (OstCutOff){.known = 1, .lacking = volume[0] / volume[2], .filled = volume[1] / volume[2]};
     return status;
+}
+
+OstStatus ost_mesh_cut_off(const OstMesh *mesh, OstCutOff *cut)
+{
+    if (!mesh->cut_off.known)
+        OST_TRY(find(mesh, &((OstMesh *)mesh)->cut_off));
+    *cut = mesh->cut_off;
+    return OST_SUCCESS;
 }

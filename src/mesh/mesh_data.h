@@ -13,6 +13,13 @@ typedef struct OstBoundary {
     OstGlobal *nodes; /* count × nodes_per_item: global numbers in a chunk, local numbers in a mesh */
 } OstBoundary;
 
+/* What plane faces do to the volume of a body whose surface is meant to be curved, as shares of it. */
+typedef struct OstCutOff {
+    int known;
+    double lacking; /* cut off where the surface is convex */
+    double filled;  /* added in hollows */
+} OstCutOff;
+
 /* Names shared by every rank. */
 typedef struct OstNames {
     int count;
@@ -70,6 +77,7 @@ struct OstMeshChunk {
     OstBoundary *boundaries;
     int straighten;    /* curved tets that fold over are made straight when the mesh is distributed, not refused */
     int only_vertices; /* what is between vertices is left out afterwards: curved tets may fold over */
+    OstCutOff cut_off; /* of the mesh that this one refines without its surface's shape, if it is known there */
     char *file;        /* that it is read from, for messages; or NULL */
 };
 
@@ -118,6 +126,7 @@ struct OstMesh {
     struct OstSurface *surface; /* once it was asked for (ost_mesh_surface); or NULL */
     unsigned char *at_surface;  /* node_count, once components were found: 1 for vertices of the surface's faces that
                                    have an owned vertex; or NULL */
+    OstCutOff cut_off;          /* as in the chunk, or once it was asked for (ost_mesh_cut_off) */
 };
 
 /* The file's numbers of a node and a tet, for messages. */
@@ -184,10 +193,9 @@ void ost_surface_destroy(OstSurface **surface);
 OstStatus ost_mesh_surface_faces(const OstMesh *mesh, double *faces);
 OstStatus ost_chunk_surface_faces(const OstMeshChunk *chunk, double *faces);
 
-/* Collective. How much larger the body would be, as a share of its volume, if its surface were smooth wherever faces
- * meet at less than 40 degrees, as where plane faces stand for a curved surface: what they cut off. Less than 0: what
- * they add in hollows. */
-OstStatus ost_mesh_cut_off(const OstMesh *mesh, double *share);
+/* Collective. What plane faces cut off and add if the surface is meant to be smooth wherever they meet at less than 40
+ * degrees. Of a mesh that was refined without the surface's shape: what those of the first did. */
+OstStatus ost_mesh_cut_off(const OstMesh *mesh, OstCutOff *cut);
 
 void ost_names_clear(OstNames *names);
 void ost_boundaries_destroy(int count, OstBoundary **boundaries);

@@ -279,16 +279,15 @@ static const double small_cut = 0.01;
 
 static int warn_of_cut_off(const OstResult *result, char text[OST_LONGEST_WARNING])
 {
-    const double cut = result->answer.cut_off;
-    char share[24];
-    if (!(fabs(cut) > small_cut))
+    const OstAnswerError *answer = &result->answer;
+    char lacking[24], filled[24];
+    if (!(fmax(answer->cut_off, answer->filled_in) > small_cut))
         return 0;
     snprintf(text, OST_LONGEST_WARNING,
-             "faces of the surface meet at small angles: if it is meant to be curved there, the body has about %s too "
-             "%s a volume, "
-             "beside the error of the answer; take a finer mesh, or quadratic tets whose mid-edge nodes lie on the "
-             "surface (of a built-in shape: element: {order: 2})",
-             percent(fabs(cut), share), cut > 0.0 ? "small" : "large");
+             "faces of the surface meet at small angles: if it is meant to be curved there, they cut off about %s of "
+             "the volume and add %s in hollows, beside the error of the answer, also in finer meshes made of this one; "
+             "take quadratic tets whose mid-edge nodes lie on the surface (of a built-in shape: element: {order: 2})",
+             percent(answer->cut_off, lacking), percent(answer->filled_in, filled));
     return 1;
 }
 

@@ -81,12 +81,12 @@ static json_t *answer_error_json(const OstResult *result)
     const OstAnswerError *answer = &result->answer;
     if (!answer->known)
         return json_null();
-    return json_pack("{s:o, s:o, s:o, s:b, s:s, s:o, s:o, s:o}", "energy_norm", ost_json_number(answer->energy_norm),
-                     "relative", ost_json_number(answer->relative), "displacement",
-                     ost_json_number(answer->displacement), "displacement_is_least", answer->displacement_is_least,
-                     "worst_region", result->mesh->regions.name[answer->region], "region_share",
-                     ost_json_number(answer->region_share), "worst_place", vector_json(answer->place), "cut_off",
-                     ost_json_number(answer->cut_off));
+    return json_pack("{s:o, s:o, s:o, s:b, s:s, s:o, s:o, s:o, s:o}", "energy_norm",
+                     ost_json_number(answer->energy_norm), "relative", ost_json_number(answer->relative),
+                     "displacement", ost_json_number(answer->displacement), "displacement_is_least",
+                     answer->displacement_is_least, "worst_region", result->mesh->regions.name[answer->region],
+                     "region_share", ost_json_number(answer->region_share), "worst_place", vector_json(answer->place),
+                     "cut_off", ost_json_number(answer->cut_off), "filled_in", ost_json_number(answer->filled_in));
 }
 
 /* The least load factors; null: no material has strengths. A factor is null where nothing fails. */

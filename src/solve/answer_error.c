@@ -144,6 +144,15 @@ static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult
 
 /* Adjoint problems of large rotations need the stiffness at the answer. The solver's hierarchy does for it, mostly; a
  * solve that finds it too old ends. */
+static OstStatus find_cut_off(OstResult *result)
+{
+    OstCutOff cut_off;
+    OST_TRY(ost_mesh_cut_off(result->mesh, &cut_off));
+    result->answer.cut_off = cut_off.lacking;
+    result->answer.filled_in = cut_off.filled;
+    return OST_SUCCESS;
+}
+
 static OstStatus move_for_adjoints(OstAnalysis *analysis, double t, const OstResult *result)
 {
     const OstProblem *problem = analysis->problem;
@@ -300,7 +309,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known)
-        OST_TRY_DONE(ost_mesh_cut_off(result->mesh, &result->answer.cut_off));
+        OST_TRY_DONE(find_cut_off(result));
     if (result->answer.known)
         OST_TRY_DONE(move_for_adjoints(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))

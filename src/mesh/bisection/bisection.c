@@ -288,6 +288,8 @@ static OstStatus split(OstBisection *bisection, const unsigned char *times, cons
     OST_FREE(bisection->leaf_label);
     bisection->settled = 0;
     OST_TRY(grow(bisection, times, shape));
+    if (!bisection->forest->shape) /* the finer mesh no longer shows it */
+        OST_TRY(ost_mesh_cut_off(bisection->mesh, &(OstCutOff){0}));
     OST_TRY(ost_forest_chunk(bisection->forest, chunk, &bisection->leaf_label));
     bisection->curved = bisection->mesh->nodes_per_tet == 10 && !bisection->forest->shape;
     return OST_SUCCESS;

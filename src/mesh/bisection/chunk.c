@@ -286,6 +286,8 @@ static OstStatus make(Making *making, OstGlobal **label)
     chunk->ctx = ctx;
     chunk->nodes_per_tet = 4;
     chunk->straighten = forest->mesh->straighten;
+    if (!forest->shape)
+        chunk->cut_off = forest->mesh->cut_off;
     OST_TRY(label_leaves(forest, *label));
     OST_TRY(number_nodes(making));
     OST_TRY(ost_number_from(ctx, forest->leaf_count, &chunk->first_tet, &chunk->global_tets));

@@ -202,6 +202,7 @@ static OstStatus distribute(OstMeshChunk *chunk, const OstTetMetric *tets, OstMe
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, mesh, 1)));
     (*mesh)->ctx = ctx;
     (*mesh)->straighten = chunk->straighten;
+    (*mesh)->cut_off = chunk->cut_off;
     OST_TRY(ost_agree(ctx, label_all(chunk)));
     OST_TRY(ost_size(ctx) == 1 ? take_all(chunk, *mesh) : partition_and_move(chunk, tets, *mesh));
     OST_TRY(name_file(chunk, ost_check_mesh(*mesh, !chunk->only_vertices)));

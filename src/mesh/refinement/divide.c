@@ -34,6 +34,7 @@ OstStatus ost_mesh_inherit(const OstMesh *parent, int nodes_per_tet, OstMesh **m
     made->ctx = ctx;
     made->nodes_per_tet = nodes_per_tet;
     made->straighten = parent->straighten;
+    made->cut_off = parent->cut_off;
     OST_TRY(copy_names(ctx, &parent->regions, &made->regions));
     OST_TRY(OST_NEW(ctx, &made->boundaries, parent->boundary_count));
     for (; made->boundary_count < parent->boundary_count; made->boundary_count++) {

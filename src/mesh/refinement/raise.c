@@ -21,6 +21,8 @@ static OstStatus raise_linear(const OstMesh *linear, const OstShapeSurface *shap
     OstStatus status = ost_mid_nodes_create(linear, shape, &mid);
     OST_THEN(ost_mesh_raise_over(&mid, quadratic));
     ost_mid_nodes_clear(&mid);
+    if (status == OST_SUCCESS && shape && shape->kind != OST_SURFACE_NONE)
+        (*quadratic)->cut_off = (OstCutOff){0};
     if (status == OST_SUCCESS && shape)
         status = ost_check_folds(*quadratic);
     return status;

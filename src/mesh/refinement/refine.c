@@ -147,8 +147,11 @@ OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, O
     Refinement refinement = {coarse, NULL, shape, NULL, NULL, NULL};
     OstMesh *skeleton = NULL;
     OstStatus status = OST_SUCCESS;
+    const int is_shaped = shape && shape->kind != OST_SURFACE_NONE;
     *fine = NULL;
     ost_ledger_enter(coarse->ctx, OST_LEDGER_MESH);
+    if (!is_shaped) /* which the finer mesh no longer shows */
+        OST_TRY_DONE(ost_mesh_cut_off(coarse, &(OstCutOff){0}));
     if (coarse->nodes_per_tet == 10) {
         OST_TRY_DONE(ost_mesh_linear(coarse, &skeleton, NULL));
         refinement.linear = skeleton;
@@ -158,6 +161,8 @@ OstStatus ost_mesh_refine(const OstMesh *coarse, const OstShapeSurface *shape, O
     if (refinement.quadratic)
         OST_TRY_DONE(raise_fine(&refinement));
     *fine = refinement.fine;
+    if (is_shaped)
+        (*fine)->cut_off = (OstCutOff){0};
     refinement.fine = NULL;
 done:
     OST_FREE(refinement.turn, refinement.origin);
