@@ -196,6 +196,27 @@ static void a_load_case_is_a_case_with_its_own_beside_that_of_all(void **state)
     ost_case_destroy(&c);
 }
 
+/* What was in its place before is not taken for it. */
+static void a_load_case_after_one_that_replaces_has_its_own(void **state)
+{
+    assert_success(
+        ost_case_parse(ctx, "bridge.yaml",
+                       "mesh: {block: {size: [4, 1, 1], divisions: [2, 2, 2]}}\n"
+                       "materials: [{region: all, youngs_modulus: 2, poissons_ratio: 0.3}]\n"
+                       "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"
+                       "cases:\n"
+                       "  - {name: sunk, constraints: [{on: {boundary: xmin}, displacement: [0, 0, -1]}]}\n"
+                       "  - name: pulled\n"
+                       "    constraints: [{on: {plane: {point: [4, 0, 0], normal: [1, 0, 0]}}, displacement: "
+                       "[1, 0, 0]}]\n",
+                       &c));
+    const OstCase *pulled = ost_case_load_case(c, 1);
+    assert_int_equal(pulled->constraint_count, 2);
+    assert_int_equal(pulled->constraints[1].on.kind, OST_SELECT_PLANE);
+    assert_close(pulled->constraints[1].displacement[0], 1.0, 0.0);
+    ost_case_destroy(&c);
+}
+
 static void a_load_case_is_picked_and_set_by_its_name(void **state)
 {
     const char *setting = "cases.wind.loads.0.value=6";
@@ -242,6 +263,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(wrong_settings_are_refused_in_words),
     cmocka_unit_test(a_value_that_aliases_stand_for_stays),
     cmocka_unit_test(a_load_case_is_a_case_with_its_own_beside_that_of_all),
+    cmocka_unit_test(a_load_case_after_one_that_replaces_has_its_own),
     cmocka_unit_test(a_load_case_is_picked_and_set_by_its_name),
     cmocka_unit_test(wrong_load_cases_are_refused),
 };
