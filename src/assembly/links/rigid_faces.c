@@ -364,7 +364,7 @@ void ost_rigid_face_add_moment(const OstLinks *links, int number, const double m
             turn[i] += share * axis[i];
     }
     for (OstLocal i = 0; i < links->count; i++) {
-        double arm[3], turned[3], part[3];
+        double arm[3] = {0.0}, turned[3], part[3];
         if (links->link[i].face != number)
             continue;
         face_of(links, &links->link[i], face->middle, arm);
