@@ -2,6 +2,7 @@
 import json
 import math
 import os
+import sys
 
 import meshio
 import numpy as np
@@ -138,9 +139,10 @@ check(stress.GetInformation().Get(vtkDataArray.UNITS_LABEL()) == "force per area
 with open(os.path.join(folder, "bent-4.vtu"), "rb") as stream:
     head = stream.read(8000).decode(errors="replace")
 check("field von_mises: von Mises stress" in head and "region 0: block" in head, "the fields are not described at the head")
-mesh = meshio.read(os.path.join(folder, "bent-4.vtu"))
-check(mesh.cells[0].type == "tetra10" and len(mesh.points) == single[1]["vertices"], f"meshio: {mesh}")
-near(np.sort(mesh.cell_data["von_mises"][0].reshape(-1)), np.sort(single[0]["von_mises"]), "von_mises by meshio", 1e-7)
+if sys.version_info < (3, 13):  # whose base64 no longer takes what meshio 5.3 makes of bytes that stand as they are
+    mesh = meshio.read(os.path.join(folder, "bent-4.vtu"))
+    check(mesh.cells[0].type == "tetra10" and len(mesh.points) == single[1]["vertices"], f"meshio: {mesh}")
+    near(np.sort(mesh.cell_data["von_mises"][0].reshape(-1)), np.sort(single[0]["von_mises"]), "von_mises by meshio", 1e-7)
 
 # Without `fields` the load factors are there where a material has strengths, and nothing else that others follow from.
 write(folder, "default.yaml", CASE)
