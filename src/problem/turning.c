@@ -184,8 +184,27 @@ static OstStatus turn_faces(const OstProblem *problem, double t, const double *f
     return ost_agree(problem->ctx, status);
 }
 
-OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
-                                   OstTurning *turning)
+/* The forces that turn, with the stress of the tangent. */
+static OstStatus find_forces(const OstProblem *problem, double t, const OstTangent *tangent, double **force)
+{
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    double *internal = NULL;
+    OST_TRY(ost_problem_out_of_balance(problem, t, tangent->u, force));
+    ost_problem_add_levers(problem, t, *force); /* forces at levers are not those that they are spread as */
+    if (!tangent->from)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(problem->ctx, &internal, 2 * owned);
+    OST_THEN(ost_internal_force_along(problem->mesh, problem->field, tangent->t, tangent->u, tangent->from, tangent->to,
+                                      internal));
+    OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, tangent->t, tangent->u,
+                                   internal + owned, NULL));
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        (*force)[i] += internal[i] - internal[owned + i];
+    OST_FREE(internal);
+    return ost_agree(problem->ctx, status);
+}
+
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const OstTangent *tangent, OstTurning *turning)
 {
     const OstLinks *links = problem->supports->links;
     const int turns = ost_problem_has_turning(problem);
@@ -196,12 +215,10 @@ OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const do
     OstStatus status = OST_NEW(problem->ctx, &turning->faces, turns ? 9 * (size_t)links->face_count : 0);
     OST_THEN(OST_NEW(problem->ctx, &turning->levers, 36 * (size_t)links->lever_count));
     status = ost_agree(problem->ctx, status);
-    OST_THEN(ost_problem_out_of_balance(problem, t, u, &force));
-    if (status == OST_SUCCESS) /* forces at levers are not those that they are spread as */
-        ost_problem_add_levers(problem, t, force);
+    OST_THEN(find_forces(problem, t, tangent, &force));
     if (turns)
-        OST_THEN(turn_faces(problem, t, force, definite, turning->faces));
-    OST_THEN(ost_levers_bend(links, u, force, definite, turning->levers));
+        OST_THEN(turn_faces(problem, t, force, tangent->definite, turning->faces));
+    OST_THEN(ost_levers_bend(links, tangent->u, force, tangent->definite, turning->levers));
     OST_FREE(force);
     if (!turns)
         OST_FREE(turning->faces);
