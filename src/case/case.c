@@ -12,6 +12,7 @@
 #include "formats/serial/input_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -65,19 +66,24 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-/* Rotations about several axes have an order, which components alone do not tell. */
+static const double half_a_turn = 3.141592653589793;
+
+/* The shortest vector of a rotation is no longer than half a turn; a longer one is known only where all of it is given.
+ */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        if (constraint->kind == OST_CONSTRAIN_RIGID && c->large_rotation == OST_LARGE_ROTATION_ON &&
-            !ost_constraint_turns(constraint))
+        double square = 0.0;
+        for (int k = 0; k < 3 && constraint->kind == OST_CONSTRAIN_RIGID; k++)
+            square += constraint->turn_constrained[k] ? constraint->rotation[k] * constraint->rotation[k] : 0.0;
+        if (c->large_rotation != OST_LARGE_ROTATION_OFF && constraint->kind == OST_CONSTRAIN_RIGID &&
+            ost_constraint_gives_part(constraint) && square > half_a_turn * half_a_turn)
             return OST_RAISE(
                 yaml->ctx, OST_INVALID_INPUT,
-                "%s:%d: with large_rotation: on, a rigid face's rotation is given in all three components "
-                "or in none, or two of them are 0 and the third is free, as that of a hinge; change it, or "
-                "say large_rotation: off",
-                yaml->path, constraint->line);
+                "%s:%d: a rotation that is given in part has a vector of at most half a turn (3.1416), found "
+                "%.4g; give all three components, turn it by less, or say large_rotation: off",
+                yaml->path, constraint->line, sqrt(square));
     }
     return OST_SUCCESS;
 }

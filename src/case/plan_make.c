@@ -20,7 +20,6 @@ static void count_constraints(const OstCase *c, OstEffectFacts *facts)
         facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
         facts->prescribed += ost_constraint_moves(constraint);
         facts->rigid_faces += constraint->kind == OST_CONSTRAIN_RIGID;
-        facts->linear_faces += constraint->kind == OST_CONSTRAIN_RIGID && !ost_constraint_turns(constraint);
         facts->ties += constraint->kind == OST_CONSTRAIN_TIED;
         facts->periodic += constraint->kind == OST_CONSTRAIN_PERIODIC;
     }
@@ -51,8 +50,6 @@ static void count_cases(const OstCase *c, OstEffectFacts *facts)
     for (int k = 0; k < c->load_case_count; k++) {
         const OstCase *one = c->load_cases[k].c;
         int is_linear = 0;
-        for (int i = 0; i < one->constraint_count; i++)
-            is_linear |= one->constraints[i].kind == OST_CONSTRAIN_RIGID && !ost_constraint_turns(&one->constraints[i]);
         for (int i = 0; i < one->load_count; i++)
             is_linear |= one->loads[i].kind == OST_LOAD_DISTRIBUTING;
         facts->linear_cases += is_linear;

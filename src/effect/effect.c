@@ -121,14 +121,13 @@ static void except_linear(const OstEffectFacts *f, OstEffectState *state)
 }
 
 static const char free_is_linear[] = "a free body is solved linearly";
-static const char faces_are_linear[] = "a rigid face part of whose rotation is given is solved linearly";
 static const char couplings_are_linear[] = "a body with moved distributing couplings is solved linearly";
 
 static const char *why_linear(const OstEffectFacts *f)
 {
     if (f->free_body)
         return free_is_linear;
-    return f->moved_couplings > 0 ? couplings_are_linear : f->linear_faces > 0 ? faces_are_linear : NULL;
+    return f->moved_couplings > 0 ? couplings_are_linear : NULL;
 }
 
 /* Why the mixed form is not used, or NULL. */
@@ -185,7 +184,7 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (f->cases > 0 && f->linear_cases == f->cases)
-        off(state, "each load case moves a coupling, or gives a part of a rigid face's rotation");
+        off(state, "each load case moves a coupling");
     else if (f->free_body || (f->cases == 0 && why_linear(f)))
         off(state, why_linear(f));
     else if (f->large_rotation == 2)

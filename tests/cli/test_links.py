@@ -436,6 +436,11 @@ def rigid_faces_turn_far():
     hinged = watched(*slender(pinned, f"{{at: [8, 0.2, 0.25], rotation: [0, 0, {angle}]}}"), ranks=(2,))
     check(hinged["energy"] < 1e-20, f"a body that turns about a hinge has the energy {hinged['energy']}")
     near(hinged["x"], 8 * math.cos(angle) - 8, 1e-9, "the end of a body that turns about a hinge")
+    pinned = pinned.replace("[0, 0, free]", "[free, 0.9, free]")
+    part = watched(*slender(pinned, "{at: [8, 0.2, 0.25], rotation: [0.4, free, -1.2]}"), ranks=(3,))
+    size = math.hypot(0.4, 0.9, -1.2)
+    check(part["energy"] < 1e-20, f"a body that turns has the energy {part['energy']}")
+    near(part["z"], 8 * (-0.9 * math.sin(size) / size - 0.4 * 1.2 * (1 - math.cos(size)) / size**2), 1e-9, "its end")
     force = "{on: {boundary: _xmax}, total_force: [0, 0.06, 0.03]AT}"
     lever = watched(*slender(clamp, "[8, 0.2, 0.25]", force.replace("AT", ", at: [11, 0.2, 0.25]")), ranks=(3,), most=11)
     text, folder = slender(clamp, "[]", force.replace("AT", ""), 11)
@@ -568,7 +573,7 @@ def what_cannot_be_is_refused():
             (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _ymax]"), "has no counterpart"),
             (cell.replace("[_xmin, _xmax]", "[_xmin, _xmin]"), "lie in the same place"),
-            (bar("{at: [4, 0.5, 0.5], rotation: [0.1, 0, free]}", large="on"), "as that of a hinge"),
+            (bar("{at: [4, 0.5, 0.5], rotation: [3.2, 0, free]}", large="on"), "at most half a turn"),
             (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
             (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
