@@ -43,19 +43,6 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
     }
 }
 
-/* Each load case by itself. */
-static void count_cases(const OstCase *c, OstEffectFacts *facts)
-{
-    facts->cases = c->load_case_count;
-    for (int k = 0; k < c->load_case_count; k++) {
-        const OstCase *one = c->load_cases[k].c;
-        int is_linear = 0;
-        for (int i = 0; i < one->load_count; i++)
-            is_linear |= one->loads[i].kind == OST_LOAD_DISTRIBUTING;
-        facts->linear_cases += is_linear;
-    }
-}
-
 static void count_springs(const OstCase *c, OstEffectFacts *facts)
 {
     facts->springs = c->spring_count;
@@ -187,7 +174,7 @@ static OstEffectFacts state_facts(const OstCase *c, const OstPlanMesh *mesh, con
                             .mixed = !c->unmixed};
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
-    count_cases(c, &facts);
+    facts.cases = c->load_case_count;
     count_springs(c, &facts);
     return facts;
 }

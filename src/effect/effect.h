@@ -78,7 +78,7 @@ typedef struct OstEffectFacts {
     int moments;                      /* loads with a moment: those, and forces at a point */
     int moved_couplings;              /* loads whose motion is given */
     int moved_components;             /* of all of these */
-    int cases, linear_cases;          /* load cases, and those of them that moved couplings make linear */
+    int cases;                        /* load cases */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_NEWTON_DATA_H
 #define ORTHOSTAT_SOLVE_NEWTON_DATA_H
 
+#include "solve/distributing/turned.h"
 #include "solve/newton.h"
 
 /* How the search for a state at rest ended. */
@@ -55,6 +56,12 @@ struct OstNewton {
     double rounding;               /* about what rounding of the displacement leaves of the residual */
     double size;                   /* of load and reactions, or `driving`: what the residual is relative to */
 
+    /* Distributing couplings that are moved, or NULL. Their multipliers are at the displacement's end too. */
+    OstTurnedCouplings *couplings;
+    int multipliers;
+    int alone;     /* does the stiffness count without them, as where it is probed? */
+    double driven; /* the residual's norm without what given motions lack */
+
     /* The last correction: */
     double change;    /* its 2-norm over that of the displacement */
     double forcing;   /* relative residual of its linear solve */
@@ -89,6 +96,12 @@ static inline int ost_newton_has_energy(const OstNewton *newton)
 static inline int ost_newton_is_mixed(const OstNewton *newton)
 {
     return newton->problem->pressures != NULL;
+}
+
+/* Is the state one where nothing is minimised? Corrections are then taken whole. */
+static inline int ost_newton_is_saddle(const OstNewton *newton)
+{
+    return ost_newton_is_mixed(newton) || newton->couplings;
 }
 
 /* Has the stiffness an unsymmetric part? */

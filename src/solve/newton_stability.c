@@ -100,6 +100,24 @@ static OstStatus probe_without_skew(OstNewton *newton)
     return status;
 }
 
+/* Where the stiffness without the couplings is definite, their own part tells; else that is not known. */
+static OstStatus probe_moved(OstNewton *newton)
+{
+    double size = 0.0;
+    int definite = 0, stable = 0;
+    newton->moved = 0;
+    OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    OST_TRY(smooth_forces(newton, newton->residual, &size));
+    newton->alone = 1;
+    const OstStatus status = ost_newton_solve(newton, 0, 1e-3, newton->residual, &definite);
+    newton->alone = 0;
+    OST_TRY(status);
+    if (definite)
+        OST_TRY(ost_turned_couplings_are_stable(newton->couplings, &stable));
+    newton->report.stability_unknown = stable ? 0 : 3;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest)
 {
     *rest = OST_REST_FOUND;
@@ -107,6 +125,8 @@ OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *res
         return probe_without_skew(newton);
     if (!ost_newton_has_energy(newton))
         return OST_SUCCESS;
+    if (newton->couplings)
+        return probe_moved(newton);
     for (int attempt = 0;; attempt++) {
         double size = 0.0;
         int stable = 0, found = 0;

@@ -157,20 +157,13 @@ static Exponential exponential_of(const double vector[3])
     return sum;
 }
 
-static void find_turning(const double vector[3], double turning[9])
+void ost_rigid_vector_turning(const double vector[3], double turning[9])
 {
     const Exponential of = exponential_of(vector);
     const double *v = vector, square = ost_dot3(v, v);
     const double across[9] = {0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0};
     for (int k = 0; k < 9; k++)
         turning[k] = of.a * across[k] + of.b * v[k / 3] * v[k % 3] + (k % 4 == 0 ? 1.0 - of.b * square : 0.0);
-}
-
-void ost_rigid_face_turning(const OstRigidFace *face, double turning[9])
-{
-    double vector[3];
-    ost_rigid_motion_vector(&face->now, vector);
-    find_turning(vector, turning);
 }
 
 /* T'S T, and of p.T'[p] p, whose moment is m: (v.p) (c.p) + b (m.v) p.p. */
@@ -180,7 +173,7 @@ void ost_rigid_face_turn_vector(const OstRigidFace *face, const double moment[3]
     ost_rigid_motion_vector(&face->now, vector);
     const Exponential of = exponential_of(vector);
     const double along = ost_dot3(moment, vector), square = ost_dot3(vector, vector);
-    find_turning(vector, turning);
+    ost_rigid_vector_turning(vector, turning);
     ost_multiply3(sum, turning, product);
     ost_multiply3_transposed_left(turning, product, sum);
     ost_cross3(moment, vector, across);
@@ -311,12 +304,13 @@ static void turn_vector(const OstRigidMotion *motion, const double x[3], double 
 
 static void set_weight(const OstRigidFace *face, const double arm[3], double weight[9])
 {
-    double turning[9], columns[3][3];
+    double vector[3], turning[9], columns[3][3];
     if (!face->by_vector) {
         ost_rigid_face_weight(face, arm, weight);
         return;
     }
-    ost_rigid_face_turning(face, turning);
+    ost_rigid_motion_vector(&face->now, vector);
+    ost_rigid_vector_turning(vector, turning);
     for (int k = 0; k < 3; k++) {
         const double turn[3] = {turning[k], turning[3 + k], turning[6 + k]};
         ost_cross3(turn, arm, columns[k]);
@@ -379,7 +373,7 @@ static void move_vector(const double turn[3], OstRigidMotion *motion)
 {
     double vector[3], turning[9], inverse[9] = {0.0}, change[3];
     ost_rigid_motion_vector(motion, vector);
-    find_turning(vector, turning);
+    ost_rigid_vector_turning(vector, turning);
     ost_invert3(turning, inverse);
     ost_apply3(inverse, turn, change);
     for (int i = 0; i < 3; i++)
@@ -429,7 +423,7 @@ static void find_change(const OstRigidFace *face, const OstRigidMotion *from, co
     ost_rigid_motion_vector(to, vector);
     for (int i = 0; i < 3; i++)
         change[i] = vector[i] - before[i];
-    find_turning(at_end ? vector : before, turning);
+    ost_rigid_vector_turning(at_end ? vector : before, turning);
     ost_apply3(turning, change, turn);
 }
 

@@ -45,8 +45,8 @@ void ost_rigid_motion_turn_by(const double vector[3], OstRigidMotion *motion);
 void ost_rigid_motion_vector(const OstRigidMotion *motion, double vector[3]);
 void ost_rigid_motion_set_vector(const double vector[3], OstRigidMotion *motion);
 
-/* Local. T of the face as it is turned, by which it turns where v changes: w = T dv. */
-void ost_rigid_face_turning(const OstRigidFace *face, double turning[9]);
+/* Local. T, by which R turns where v changes: w = T dv. */
+void ost_rigid_vector_turning(const double vector[3], double turning[9]);
 
 /* Local. Makes of what forces at arms add to the stiffness (ost_add_turning), and of their moment, the second
  * derivative by v. */
