@@ -223,7 +223,7 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
     else if (result->newton.stability_unknown == 3)
         snprintf(text, OST_LONGEST_WARNING,
                  "it is not known whether the state at rest is stable: without the moved distributing coupling it is "
-                 "not, as beyond a buckling load or in a snap-through that is followed: the body may rest elsewhere");
+                 "not, and factors that would tell take more memory than there is; the body may rest elsewhere");
     else
         snprintf(
             text, OST_LONGEST_WARNING,

@@ -578,14 +578,15 @@ OstStatus ost_turned_couplings_correct(OstTurnedCouplings *all, OstTurnedSolve *
     return status;
 }
 
-/* The least work that makes the sums dz is dz' A^-1 dz / 2: it must exceed that of h_z, dz' h_z dz / 2, where c' dz =
- * 0. So [A^-1 - h_z, c''; c', 0] has one negative eigenvalue for each component, and [-A, I, 0; I, -h_z, c''; 0, c',
- * 0], whose Schur complement that is, one more for each sum (Sylvester's law of inertia). */
-OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *all, int *stable)
+/* The energy is least where Y d = dz and c' dz = 0 if the matrix of d, dz and their multipliers has as many negative
+ * eigenvalues as there are such equations: those of K, and of what eliminating d leaves (Sylvester's law of inertia),
+ * [-A, I, 0; I, -h_z, c'; 0, c', 0]. */
+OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *all, OstGlobal of_stiffness, int *stable)
 {
     const int n = all->sums, size = 2 * n + all->components, room = 3 * size;
     double *matrix = NULL, *values = NULL, *work = NULL;
-    int info = 0, negative = 0;
+    int info = 0;
+    OstGlobal negative = of_stiffness;
     OstStatus status = OST_NEW(all->problem->ctx, &matrix, (size_t)size * (size_t)size);
     OST_THEN(OST_NEW(all->problem->ctx, &values, (size_t)size));
     OST_THEN(OST_NEW(all->problem->ctx, &work, (size_t)room));

@@ -43,8 +43,9 @@ typedef OstStatus OstTurnedSolve(void *data, const double *rhs, double *x, int *
 OstStatus ost_turned_couplings_correct(OstTurnedCouplings *couplings, OstTurnedSolve *solve, void *data,
                                        double *correction, double *change, int *found);
 
-/* Local. Where K is definite, as of the last correction: is the body stable while its motion is given? */
-OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *couplings, int *stable);
+/* Local. With so many negative eigenvalues of K, as of the last correction: is the body stable while its motion is
+ * given? */
+OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *couplings, OstGlobal negative, int *stable);
 
 /* Collective. Counts their forces at t as those of the problem's load, as after a linear solve. */
 OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *couplings, double t);
