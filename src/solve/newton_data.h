@@ -59,7 +59,6 @@ struct OstNewton {
     /* Distributing couplings that are moved, or NULL. Their multipliers are at the displacement's end too. */
     OstTurnedCouplings *couplings;
     int multipliers;
-    int alone;     /* does the stiffness count without them, as where it is probed? */
     double driven; /* the residual's norm without what given motions lack */
 
     /* The last correction: */
@@ -125,6 +124,9 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
 /* Collective. from + length × direction (count each), on rigid faces along the curve on which they keep their shape. */
 OstStatus ost_newton_move(const OstNewton *newton, const double *from, const double *direction, double length,
                           double *to);
+
+/* Collective. By the exact stiffness; where couplings move the body, one that is indefinite serves too. */
+OstStatus ost_newton_solve_held(OstNewton *newton, double forcing, const double *rhs, int *found);
 
 /* Collective. The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
 OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction);

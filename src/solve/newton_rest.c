@@ -193,11 +193,7 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
     int found = 0;
     *length = 0.0;
     if (!*definite) {
-        OST_TRY(ost_newton_solve(newton, 0, forcing, newton->residual, &found));
-        if (!found && newton->couplings && !newton->indefinite) {
-            newton->indefinite = newton->rebuild = 1;
-            OST_TRY(ost_newton_solve(newton, 0, forcing, newton->residual, &found));
-        }
+        OST_TRY(ost_newton_solve_held(newton, forcing, newton->residual, &found));
         *definite = !found;
         newton->indefinite |= !found;
     }

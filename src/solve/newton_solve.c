@@ -152,7 +152,7 @@ static OstStatus solve(OstNewton *newton, int unsymmetric, double forcing, const
 /* By GMRES? Without what moved couplings hold the stiffness may be indefinite though the body is stable. */
 static int is_unsymmetric(const OstNewton *newton, int definite)
 {
-    const int held = newton->couplings && newton->indefinite && !newton->alone;
+    const int held = newton->couplings && newton->indefinite;
     return (ost_newton_is_unsymmetric(newton) || held) && !definite && !newton->without_skew;
 }
 
@@ -211,9 +211,6 @@ static OstStatus move_couplings(OstNewton *newton, int definite, int *found)
     Moved moved = {newton, is_unsymmetric(newton, definite)};
     const OstSolveReport solve_report = newton->solve;
     double *change = newton->direction + newton->count - newton->multipliers;
-    memset(change, 0, (size_t)newton->multipliers * sizeof *change);
-    if (newton->alone)
-        return OST_SUCCESS;
     OST_TRY(ost_turned_couplings_correct(newton->couplings, solve_moved, &moved, newton->correction, change, found));
     newton->solve = solve_report;
     return OST_SUCCESS;
@@ -240,4 +237,13 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
     if (newton->couplings)
         OST_TRY(move_couplings(newton, definite, found));
     return ost_newton_spread(newton, newton->correction, newton->direction);
+}
+
+OstStatus ost_newton_solve_held(OstNewton *newton, double forcing, const double *rhs, int *found)
+{
+    OST_TRY(ost_newton_solve(newton, 0, forcing, rhs, found));
+    if (*found || !newton->couplings || newton->indefinite)
+        return OST_SUCCESS;
+    newton->indefinite = newton->rebuild = 1;
+    return ost_newton_solve(newton, 0, forcing, rhs, found);
 }

@@ -105,19 +105,17 @@ static OstStatus probe_without_skew(OstNewton *newton)
 static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
 {
     double size = 0.0;
-    int definite = 0, stable = 0, known = 1;
+    int found = 0, stable = 0, known = 1;
     OstGlobal negative = 0;
     newton->moved = 0;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     OST_TRY(smooth_forces(newton, newton->residual, &size));
-    newton->alone = 1;
-    const OstStatus status = ost_newton_solve(newton, 0, 1e-3, newton->residual, &definite);
-    newton->alone = 0;
-    OST_TRY(status);
-    if (!definite)
+    OST_TRY(ost_newton_solve_held(newton, 1e-3, newton->residual, &found));
+    if (newton->indefinite)
         OST_TRY(ost_solver_count_negative(newton->stiffness->solver,
                                           ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL, &negative,
                                           &known));
+    known &= found;
     if (known)
         OST_TRY(ost_turned_couplings_are_stable(newton->couplings, negative, &stable));
     newton->report.stability_unknown = known ? 0 : 3;

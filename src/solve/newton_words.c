@@ -64,7 +64,7 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
         snprintf(reason, sizeof reason,
                  "the state at rest there is not stable: the body buckles, and where a distributing coupling moves it "
                  "no other state is looked for; move it by less, or make the face 'rigid', which is followed there");
-    else if (newton->indefinite || rest == OST_REST_UNSTABLE)
+    else if ((newton->indefinite && !newton->couplings) || rest == OST_REST_UNSTABLE)
         snprintf(reason, sizeof reason,
                  "the stiffness is indefinite there (negative curvature of the energy): the body buckles, or the load "
                  "passes a limit point beyond which nothing at rest was found near by; lower the load, or prescribe "
