@@ -68,8 +68,7 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
 
 static const double half_a_turn = 3.141592653589793;
 
-/* The shortest vector of a rotation is no longer than half a turn; a longer one is known only where all of it is given.
- */
+/* Of a rotation the nodes tell the shortest vector alone; a longer one is known where all of it is given. */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++) {
