@@ -50,8 +50,9 @@ OstStatus ost_solver_solve(OstSolver *solver, const double *f, double *u, OstSol
 OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, const double *f, double *u,
                                  OstSolveReport *report);
 
-/* Collective. How many eigenvalues of a mixed form's stiffness are negative (ost_saddle_factors_negative), with A as it
- * now is. *known: 0 if the factors that tell do not fit into memory. */
+/* Collective. How many eigenvalues of a mixed form's stiffness are negative (ost_saddle_factors_negative), or of A
+ * alone
+ * (`coupling` NULL), with A as it now is. *known: 0 if the factors that tell do not fit into memory. */
 OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known);
 
 /* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the

@@ -56,7 +56,7 @@ OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupli
     OST_TRY(factor_both(solver, coupling));
     *known = solver->whole != NULL;
     *negative = *known ? ost_saddle_factors_negative(solver->whole) : 0;
-    if (!solver->direct)
+    if (!solver->direct || !coupling)
         ost_saddle_factors_destroy(&solver->whole);
     return OST_SUCCESS;
 }

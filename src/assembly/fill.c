@@ -80,12 +80,15 @@ static inline void fetch_ahead(const OstLocal *block_of_tet, size_t first, size_
 static void tangent_stiffness(const OstBatch *batch, const OstElement *element, const OstTangent *tangent,
                               OstSimd *blocks)
 {
-    OstSimd u[3 * OST_MAX_TET_NODES], from[3 * OST_MAX_TET_NODES];
+    OstSimd u[3 * OST_MAX_TET_NODES], from[3 * OST_MAX_TET_NODES], to[3 * OST_MAX_TET_NODES];
+    const OstLastStep last = {from, to};
     ost_batch_gather_vectors(batch, element->nodes, tangent->u, u);
-    if (tangent->from)
+    if (tangent->from) {
         ost_batch_gather_vectors(batch, element->nodes, tangent->from, from);
+        ost_batch_gather_vectors(batch, element->nodes, tangent->to, to);
+    }
     ost_large_rotation_stiffness(element, tangent->formulation, batch->x, &batch->elasticity, u,
-                                 tangent->from ? from : NULL, tangent->definite, blocks);
+                                 tangent->from ? &last : NULL, tangent->definite, blocks);
 }
 
 /* The linear stiffness if `tangent` is NULL. */

@@ -38,7 +38,8 @@ typedef struct Request {
     double t;
     const double *u;
     double *force, *magnitude;
-    double *stress; /* grows by the squares of the owned tets' mean stresses; NULL: not wanted */
+    double *stress;          /* grows by the squares of the owned tets' mean stresses; NULL: not wanted */
+    const double *from, *to; /* of the last step, or NULL */
 } Request;
 
 /* Forces and mean stresses by linear theory. */
@@ -62,6 +63,19 @@ static void add_squares(const OstBatch *batch, OstLocal owned_tets, const OstSim
             *sum += stress[p][slot] * stress[p][slot];
 }
 
+static void find_turned(const Request *request, const OstElement *element, const OstBatch *batch, const OstSimd *u,
+                        OstSimd *force)
+{
+    OstSimd from[3 * OST_MAX_TET_NODES], to[3 * OST_MAX_TET_NODES];
+    const OstLastStep last = {from, to};
+    if (request->from) {
+        ost_batch_gather_vectors(batch, element->nodes, request->from, from);
+        ost_batch_gather_vectors(batch, element->nodes, request->to, to);
+    }
+    ost_large_rotation_force(element, request->formulation, batch->x, &batch->elasticity, u,
+                             request->from ? &last : NULL, force);
+}
+
 /* Of one batch, which is gathered. */
 static void add_batch(const Request *request, const OstElement *element, const OstBatch *batch)
 {
@@ -76,7 +90,7 @@ static void add_batch(const Request *request, const OstElement *element, const O
     } else if (request->force && request->formulation == OST_FORMULATION_LINEAR)
         element->force(batch->x, &batch->elasticity, displacement, of_tets);
     else if (request->force)
-        ost_large_rotation_force(element, request->formulation, batch->x, &batch->elasticity, displacement, of_tets);
+        find_turned(request, element, batch, displacement, of_tets);
     if (request->force)
         scatter(batch, element->nodes, of_tets, 1.0, owned, request->force);
     if (!request->magnitude)
@@ -128,14 +142,20 @@ static OstStatus find(Request *request)
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
                                 double t, const double *u, double *force, double *magnitude)
 {
-    return find(&(Request){mesh, field, formulation, t, u, force, magnitude, NULL});
+    return find(&(Request){mesh, field, formulation, t, u, force, magnitude, NULL, NULL, NULL});
+}
+
+OstStatus ost_internal_force_along(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                   const double *from, const double *to, double *force)
+{
+    return find(&(Request){mesh, field, OST_FORMULATION_CONSISTENT, t, u, force, NULL, NULL, from, to});
 }
 
 OstStatus ost_internal_force_and_stress(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                                         double *force, double *stress)
 {
     *stress = 0.0;
-    return find(&(Request){mesh, field, OST_FORMULATION_LINEAR, t, u, force, NULL, stress});
+    return find(&(Request){mesh, field, OST_FORMULATION_LINEAR, t, u, force, NULL, stress, NULL, NULL});
 }
 
 /* Is a displacement other than 0 prescribed at the node? */

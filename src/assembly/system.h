@@ -46,7 +46,7 @@ typedef struct OstTangent {
     OstFormulation formulation;         /* consistent or classical */
     double t;                           /* the share of the eigenstrain */
     const double *u;                    /* 3 × node_count */
-    const double *from;                 /* 3 × node_count or NULL: ost_large_rotation_stiffness */
+    const double *from, *to;            /* 3 × node_count or NULL: OstLastStep (element/large_rotation.h) */
     int definite;                       /* made positive semidefinite, tet by tet, where it is not? */
     const struct OstFollower *follower; /* whose load stiffness is added (assembly/follower.h), or NULL */
     const double *factor;               /* of its loads, one for each function of time */
@@ -96,6 +96,10 @@ OstStatus ost_eigenstrain_force(const OstMesh *mesh, const OstMaterialField *fie
  */
 OstStatus ost_internal_force_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,
                                 double t, const double *u, double *force, double *magnitude);
+
+/* Local. The same of the consistent form, with the stress along a step (OstLastStep). */
+OstStatus ost_internal_force_along(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
+                                   const double *from, const double *to, double *force);
 
 /* Local. Strain energy of this rank's own tets under t and u, with large rotations. */
 double ost_large_rotation_energy_of(const OstMesh *mesh, const OstMaterialField *field, OstFormulation formulation,

@@ -12,6 +12,7 @@
 #include "formats/serial/input_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -65,19 +66,23 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-/* Rotations about several axes have an order, which components alone do not tell. */
+static const double half_a_turn = 3.141592653589793;
+
+/* Of a rotation the nodes tell the shortest vector alone; a longer one is known where all of it is given. */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->constraint_count; i++) {
         const OstConstraint *constraint = &c->constraints[i];
-        if (constraint->kind == OST_CONSTRAIN_RIGID && c->large_rotation == OST_LARGE_ROTATION_ON &&
-            !ost_constraint_turns(constraint))
+        double square = 0.0;
+        for (int k = 0; k < 3 && constraint->kind == OST_CONSTRAIN_RIGID; k++)
+            square += constraint->turn_constrained[k] ? constraint->rotation[k] * constraint->rotation[k] : 0.0;
+        if (c->large_rotation != OST_LARGE_ROTATION_OFF && constraint->kind == OST_CONSTRAIN_RIGID &&
+            ost_constraint_gives_part(constraint) && square > half_a_turn * half_a_turn)
             return OST_RAISE(
                 yaml->ctx, OST_INVALID_INPUT,
-                "%s:%d: with large_rotation: on, a rigid face's rotation is given in all three components "
-                "or in none, or two of them are 0 and the third is free, as that of a hinge; change it, or "
-                "say large_rotation: off",
-                yaml->path, constraint->line);
+                "%s:%d: a rotation that is given in part has a vector of at most half a turn (3.1416), found "
+                "%.4g; give all three components, turn it by less, or say large_rotation: off",
+                yaml->path, constraint->line, sqrt(square));
     }
     return OST_SUCCESS;
 }
@@ -86,14 +91,11 @@ static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->load_count; i++) {
-        const char *without = c->large_rotation == OST_LARGE_ROTATION_ON ? "large_rotation: on"
-                              : c->path_steps > 0                        ? "path"
-                              : c->free_body                             ? "constraints: free_body"
-                                                                         : NULL;
+        const char *without = c->path_steps > 0 ? "path" : c->free_body ? "constraints: free_body" : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: a distributing coupling with a given motion is solved by linear theory, on a body "
-                             "that is constrained elsewhere; leave out '%s'",
+                             "%s:%d: a distributing coupling moves a body that is constrained elsewhere, to its end at "
+                             "once; leave out '%s'",
                              yaml->path, c->loads[i].line, without);
         const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)

@@ -83,16 +83,15 @@ static inline int ost_constraint_links(const OstConstraint *constraint)
     return constraint->kind >= OST_CONSTRAIN_RIGID;
 }
 
-/* Local. Of a rigid face: can its rotation be large? Not where a part of it is given, but for a hinge, which holds two
- * components. */
-static inline int ost_constraint_turns(const OstConstraint *constraint)
+/* Local. Of a rigid face: is a part of its rotation's vector given? But for a hinge, which turns about its axis. */
+static inline int ost_constraint_gives_part(const OstConstraint *constraint)
 {
     int given = 0, zero = 1;
     for (int i = 0; i < 3; i++) {
         given += constraint->turn_constrained[i] != 0;
         zero &= constraint->rotation[i] == 0.0;
     }
-    return given == 0 || given == 3 || (given == 2 && zero);
+    return given == 1 || (given == 2 && !zero);
 }
 
 typedef enum {

@@ -20,7 +20,6 @@ static void count_constraints(const OstCase *c, OstEffectFacts *facts)
         facts->slides += constraint->kind == OST_CONSTRAIN_SLIDE;
         facts->prescribed += ost_constraint_moves(constraint);
         facts->rigid_faces += constraint->kind == OST_CONSTRAIN_RIGID;
-        facts->linear_faces += constraint->kind == OST_CONSTRAIN_RIGID && !ost_constraint_turns(constraint);
         facts->ties += constraint->kind == OST_CONSTRAIN_TIED;
         facts->periodic += constraint->kind == OST_CONSTRAIN_PERIODIC;
     }
@@ -41,21 +40,6 @@ static void count_loads(const OstCase *c, const OstEffect *known, OstEffectFacts
         facts->moved_couplings += c->loads[i].kind == OST_LOAD_DISTRIBUTING;
         for (int k = 0; k < 6 && c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
             facts->moved_components += c->loads[i].moved[k];
-    }
-}
-
-/* Each load case by itself. */
-static void count_cases(const OstCase *c, OstEffectFacts *facts)
-{
-    facts->cases = c->load_case_count;
-    for (int k = 0; k < c->load_case_count; k++) {
-        const OstCase *one = c->load_cases[k].c;
-        int is_linear = 0;
-        for (int i = 0; i < one->constraint_count; i++)
-            is_linear |= one->constraints[i].kind == OST_CONSTRAIN_RIGID && !ost_constraint_turns(&one->constraints[i]);
-        for (int i = 0; i < one->load_count; i++)
-            is_linear |= one->loads[i].kind == OST_LOAD_DISTRIBUTING;
-        facts->linear_cases += is_linear;
     }
 }
 
@@ -190,7 +174,7 @@ static OstEffectFacts state_facts(const OstCase *c, const OstPlanMesh *mesh, con
                             .mixed = !c->unmixed};
     count_constraints(c, &facts);
     count_loads(c, mesh->load, &facts);
-    count_cases(c, &facts);
+    facts.cases = c->load_case_count;
     count_springs(c, &facts);
     return facts;
 }

@@ -111,24 +111,11 @@ static int has_links(const OstEffectFacts *f)
     return f->rigid_faces + f->ties + f->periodic > 0;
 }
 
-/* To what the load cases that are not solved linearly do, says which others there are. */
-static void except_linear(const OstEffectFacts *f, OstEffectState *state)
-{
-    const size_t used = strlen(state->reason);
-    if (f->linear_cases > 0)
-        snprintf(state->reason + used, sizeof state->reason - used, "; not in %d of %d load cases", f->linear_cases,
-                 f->cases);
-}
-
 static const char free_is_linear[] = "a free body is solved linearly";
-static const char faces_are_linear[] = "a rigid face part of whose rotation is given is solved linearly";
-static const char couplings_are_linear[] = "a body with moved distributing couplings is solved linearly";
 
 static const char *why_linear(const OstEffectFacts *f)
 {
-    if (f->free_body)
-        return free_is_linear;
-    return f->moved_couplings > 0 ? couplings_are_linear : f->linear_faces > 0 ? faces_are_linear : NULL;
+    return f->free_body ? free_is_linear : NULL;
 }
 
 /* Why the mixed form is not used, or NULL. */
@@ -184,17 +171,13 @@ static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
     const double bytes = (264.0 + of_all) * f->nodes + (f->quadratic ? 220.0 : 40.0) * f->tets;
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
-    else if (f->cases > 0 && f->linear_cases == f->cases)
-        off(state, "each load case moves a coupling, or gives a part of a rigid face's rotation");
-    else if (f->free_body || (f->cases == 0 && why_linear(f)))
+    else if (why_linear(f))
         off(state, why_linear(f));
     else if (f->large_rotation == 2)
         on(state, bytes, "the case says so: Newton's method, %s formulation", f->formulation);
     else
         on(state, 0.0, "auto: a linear solve, then Newton's method (%s) where that is off by more than %g %%",
            f->formulation, 100.0 * f->accuracy);
-    if (state->on)
-        except_linear(f, state);
 }
 
 /* Of each mode, and one more, three columns of three vectors, its displacement and forces; the modes found. */
@@ -307,11 +290,13 @@ static void moment(const OstEffectFacts *f, OstEffectState *state)
 }
 
 /* Of each component the load of a unit of its force and the displacement under that; the load of all, two vectors of
- * work, and the solver's eight. */
+ * work, and the solver's eight. With large rotations of each coupling the weights of its sums, and what their forces
+ * do. */
 static void moved_coupling(const OstEffectFacts *f, OstEffectState *state)
 {
+    const double turned = f->large_rotation == 2 ? (32.0 + 12.0 * 24.0) * f->moved_couplings : 0.0;
     if (f->moved_couplings > 0)
-        on(state, f->nodes * (264.0 + 48.0 * f->moved_components),
+        on(state, f->nodes * (264.0 + 48.0 * f->moved_components + turned),
            "the motion of %d of %d loads is given, in %d component%s", f->moved_couplings, f->loads,
            f->moved_components, f->moved_components == 1 ? "" : "s");
     else

@@ -67,7 +67,6 @@ typedef struct OstEffectFacts {
     int quadratic;               /* are the tets quadratic? */
     int multigrid;               /* may the linear system be solved by multigrid? */
     int constraints, prescribed, slides, rigid_faces, ties, periodic;
-    int linear_faces; /* rigid faces that cannot turn far: a part of their rotation is given */
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
     int buckling;       /* modes asked for */
@@ -79,7 +78,7 @@ typedef struct OstEffectFacts {
     int moments;                      /* loads with a moment: those, and forces at a point */
     int moved_couplings;              /* loads whose motion is given */
     int moved_components;             /* of all of these */
-    int cases, linear_cases;          /* load cases, and those of them that such faces or moved couplings make linear */
+    int cases;                        /* load cases */
     int springs, foundations;         /* entries of the case's springs, and those of them that are per area */
     const char *eigenstrained_region; /* a region with an eigenstrain, or NULL */
     int cell_fields; /* numbers a tet among the output fields that are recovered: strains, stresses, energy */

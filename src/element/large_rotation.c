@@ -62,9 +62,9 @@ static void deform(const OstElement *element, const OstSimd *x, const OstElastic
     tets->stiff /= tets->volume;
 }
 
-/* Puts the stress that is linear between `from` and u in place of that at u. */
-static void take_linear_stress(const OstElement *element, const OstElasticity *elasticity, const OstSimd *u,
-                               const OstSimd *from, DeformedTets *tets)
+/* Puts the stress that is linear along a step in place of that at u. */
+static void take_linear_stress(const OstElement *element, const OstElasticity *elasticity, const OstLastStep *last,
+                               DeformedTets *tets)
 {
     tets->stiff = (OstSimd){0};
     for (int q = 0; q < tets->count; q++) {
@@ -72,8 +72,8 @@ static void take_linear_stress(const OstElement *element, const OstElasticity *e
         OstPolar polar;
         OstSimd slope[9], before[9], change[6];
         OstSimd mode;
-        ost_displacement_gradient(element->nodes, &at->point, from, before);
-        ost_displacement_gradient(element->nodes, &at->point, u, slope);
+        ost_displacement_gradient(element->nodes, &at->point, last->from, before);
+        ost_displacement_gradient(element->nodes, &at->point, last->to, slope);
         for (int n = 0; n < 9; n++)
             slope[n] -= before[n];
         ost_polar(before, &polar);
@@ -137,10 +137,12 @@ static void consistent_energy(const OstElement *element, const OstSimd *x, const
 }
 
 static void consistent_force(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                             const OstSimd *u, OstSimd *force)
+                             const OstSimd *u, const OstLastStep *last, OstSimd *force)
 {
     DeformedTets tets;
     deform(element, x, elasticity, u, &tets);
+    if (last)
+        take_linear_stress(element, elasticity, last, &tets);
     memset(force, 0, 3 * (size_t)element->nodes * sizeof *force);
     for (int q = 0; q < tets.count; q++) {
         OstSimd stress[6];
@@ -215,12 +217,12 @@ static inline void sum_points(int nodes, const DeformedTets *tets, const OstElas
 }
 
 static void consistent_stiffness(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,
-                                 const OstSimd *u, const OstSimd *from, int definite, OstSimd *blocks)
+                                 const OstSimd *u, const OstLastStep *last, int definite, OstSimd *blocks)
 {
     DeformedTets tets;
     deform(element, x, elasticity, u, &tets);
-    if (from)
-        take_linear_stress(element, elasticity, u, from, &tets);
+    if (last)
+        take_linear_stress(element, elasticity, last, &tets);
     if (element->nodes == 4) /* a number that the compiler knows: half the time of what follows the Hessian */
         sum_points(4, &tets, elasticity, definite, blocks);
     else
@@ -364,22 +366,23 @@ void ost_large_rotation_energy(const OstElement *element, OstFormulation formula
 }
 
 void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                              const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+                              const OstElasticity *elasticity, const OstSimd *u, const OstLastStep *last,
+                              OstSimd *force)
 {
     if (formulation == OST_FORMULATION_CLASSICAL)
         classical_force(element, x, elasticity, u, force);
     else
-        consistent_force(element, x, elasticity, u, force);
+        consistent_force(element, x, elasticity, u, last, force);
 }
 
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
-                                  OstSimd *blocks)
+                                  const OstElasticity *elasticity, const OstSimd *u, const OstLastStep *last,
+                                  int definite, OstSimd *blocks)
 {
     if (formulation == OST_FORMULATION_CLASSICAL)
         classical_stiffness(element, x, elasticity, u, blocks);
     else
-        consistent_stiffness(element, x, elasticity, u, from, definite, blocks);
+        consistent_stiffness(element, x, elasticity, u, last, definite, blocks);
 }
 
 static void consistent_means(const OstElement *element, const OstSimd *x, const OstElasticity *elasticity,

@@ -18,19 +18,27 @@
 
 void ost_large_rotation_energy(const OstElement *element, OstFormulation formulation, const OstSimd *x,
                                const OstElasticity *elasticity, const OstSimd *u, OstSimd *energy);
-void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                              const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-/* Blocks as of OstElement.stiffness. `from`: NULL, or another displacement, of the last Newton iteration: the stress of
- * the geometric part is then that at `from` plus its linear change up to u, without what rotation by a linear
- * displacement seems to stretch (D. Magisano, L. Leonetti and G. Garcea, How to improve efficiency and robustness of
- * the Newton method in geometrically non-linear structural problem discretized via displacement-based finite elements,
- * Comput. Methods Appl. Mech. Eng. 313, 2017). If `definite`, the derivative of the stress at each point is made
+/* The last Newton iteration went straight from one displacement to another; where nodes follow others along curves, u
+ * is not that. The stress is taken as that at `from` plus its linear change up to `to`, without what rotation by a
+ * linear displacement seems to stretch (D. Magisano, L. Leonetti and G. Garcea, How to improve efficiency and
+ * robustness of the Newton method in geometrically non-linear structural problem discretized via displacement-based
+ * finite elements, Comput. Methods Appl. Mech. Eng. 313, 2017). */
+typedef struct OstLastStep {
+    const OstSimd *from, *to;
+} OstLastStep;
+
+/* `last`: NULL, or whence the stress of the consistent form is, here and in the geometric part of the stiffness. */
+void ost_large_rotation_force(const OstElement *element, OstFormulation formulation, const OstSimd *x,
+                              const OstElasticity *elasticity, const OstSimd *u, const OstLastStep *last,
+                              OstSimd *force);
+
+/* Blocks as of OstElement.stiffness. If `definite`, the derivative of the stress at each point is made
  * positive semidefinite where it is not (ost_biot_hessian), and so the tet's stiffness. (The classical one always is.)
  */
 void ost_large_rotation_stiffness(const OstElement *element, OstFormulation formulation, const OstSimd *x,
-                                  const OstElasticity *elasticity, const OstSimd *u, const OstSimd *from, int definite,
-                                  OstSimd *blocks);
+                                  const OstElasticity *elasticity, const OstSimd *u, const OstLastStep *last,
+                                  int definite, OstSimd *blocks);
 
 /* The coupling of a mixed form's pressures, consistent alone: for each vertex, with N its share of the pressure, the
  * derivative by the displacements (3 numbers a node) of the integral of N (m'(U - I - e0) - looseness p), and that

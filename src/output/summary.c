@@ -220,6 +220,10 @@ static int warn_of_stability(const OstResult *result, char text[OST_LONGEST_WARN
                  "it is not known whether the state at rest is stable: the pressure follows a surface with a free rim, "
                  "so that no energy tells, and the symmetric part of the stiffness is indefinite there, as it is near "
                  "a limit load and beyond one: the body may rest elsewhere");
+    else if (result->newton.stability_unknown == 3)
+        snprintf(text, OST_LONGEST_WARNING,
+                 "it is not known whether the state at rest is stable: without the moved distributing coupling it is "
+                 "not, and factors that would tell take more memory than there is; the body may rest elsewhere");
     else
         snprintf(
             text, OST_LONGEST_WARNING,

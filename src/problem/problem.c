@@ -3,6 +3,8 @@
 
 #include "algebra/matrix/fold.h"
 #include "assembly/batch.h"
+#include "assembly/links/levers.h"
+#include "assembly/links/rigid_faces.h"
 #include "assembly/springs.h"
 #include "case/plan.h"
 #include "core/error.h"
@@ -386,21 +388,40 @@ OstStatus ost_problem_add_skew(const OstProblem *problem, double t, const double
     return OST_SUCCESS;
 }
 
-/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. Where
- * rigid faces turn, stress is that at u: with one from `from` on, tets beside them take more iterations. */
+/* Where the last step would have ended had nodes that turn with rigid faces and levers gone straight on. */
+static OstStatus find_straight(const OstProblem *problem, const double *from, const double *u, double **to)
+{
+    const size_t count = 3 * (size_t)problem->mesh->node_count;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, to, count)));
+    for (size_t i = 0; i < count; i++)
+        (*to)[i] = u[i] - from[i];
+    OST_TRY(ost_rigid_faces_change(problem->supports->links, from, u, 0, 1.0, *to));
+    OST_TRY(ost_levers_change(problem->supports->links, from, *to));
+    for (size_t i = 0; i < count; i++)
+        (*to)[i] += from[i];
+    return OST_SUCCESS;
+}
+
+/* The load stiffness of a follower pressure may be indefinite: it has no place in a definite stiffness. */
 static OstStatus fill(const OstProblem *problem, double t, const double *u, const double *from, int definite)
 {
-    const int turns = ost_problem_has_turning(problem);
     OstTangent tangent = {.formulation = problem->formulation,
                           .t = ost_problem_eigen_share(problem, t),
                           .u = u,
-                          .from = turns ? NULL : from,
+                          .from = from,
+                          .to = u,
                           .definite = definite};
-    double *factor = NULL;
+    const OstLinks *links = problem->supports->links;
+    double *factor = NULL, *straight = NULL;
     OstTurning turning = {0};
     if (problem->formulation == OST_FORMULATION_LINEAR || !u) /* where all formulations agree */
         return ost_system_fill_tangent(problem->system, problem->field, NULL);
-    OstStatus status = ost_problem_find_turning(problem, t, u, definite, &turning);
+    OstStatus status = OST_SUCCESS;
+    if (from && links && (links->face_count > 0 || links->gaps)) {
+        status = find_straight(problem, from, u, &straight);
+        tangent.to = straight;
+    }
+    OST_THEN(ost_problem_find_turning(problem, t, &tangent, &turning));
     tangent.turning = &turning;
     if (problem->follower && !definite) {
         OST_THEN(factors_at(problem, t, &factor));
@@ -408,7 +429,7 @@ static OstStatus fill(const OstProblem *problem, double t, const double *u, cons
         tangent.factor = factor;
     }
     OST_THEN(ost_system_fill_tangent(problem->system, problem->field, &tangent));
-    OST_FREE(factor, turning.faces, turning.levers);
+    OST_FREE(straight, factor, turning.faces, turning.levers);
     return status;
 }
 

@@ -127,11 +127,10 @@ double ost_problem_lever_work(const OstProblem *problem, double t);
 /* Collective. Is there a rigid face whose rotation is an unknown? */
 int ost_problem_has_turning(const OstProblem *problem);
 
-/* Collective. What forces at the arms of such faces, and of levers, add to the stiffness, made positive semidefinite if
- * `definite`; once links are turned to u. The arrays of `turning` are the caller's to free, NULL where there is none.
- */
-OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
-                                   OstTurning *turning);
+/* Collective. What forces at the arms of such faces, and of levers, add to the stiffness at tangent->u, where links are
+ * turned to, made positive semidefinite if tangent->definite. The arrays of `turning` are the caller's to free, NULL
+ * where there is none. */
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const OstTangent *tangent, OstTurning *turning);
 
 /* Collective. Puts what is prescribed at t into a displacement, the rest of which is kept; v has room for 3 × rows. */
 OstStatus ost_problem_prescribe(const OstProblem *problem, double t, double *v, double *u);

@@ -140,7 +140,7 @@ static int all_of(const int constrained[3])
 
 static OstStatus add_rigid(const OstScene *scene, const OstConstraint *constraint, double factor, OstLinks *links)
 {
-    OstRigidFace face = {.carrier = {-1, -1}};
+    OstRigidFace face = {.carrier = {-1, -1}, .by_vector = ost_constraint_gives_part(constraint)};
     OstGlobal lowest[2];
     OstLocal count = 0;
     OstLocal *nodes = NULL;

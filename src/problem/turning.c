@@ -144,18 +144,28 @@ int ost_problem_has_turning(const OstProblem *problem)
     return any;
 }
 
-/* Of the nodes of rigid faces. */
+static void add_force(const double arm[3], const double force[3], double factor, double turning[9], double moment[3])
+{
+    double part[3];
+    ost_add_turning(arm, force, factor, turning);
+    ost_cross3(arm, force, part);
+    for (int i = 0; i < 3; i++)
+        moment[i] += factor * part[i];
+}
+
+/* Of the nodes of rigid faces: 9 numbers for each face, and then 3, the moment. */
 static OstStatus sum_nodes(const OstLinks *links, const double *force, double *turning)
 {
+    double *moment = turning + 9 * links->face_count;
     for (OstLocal i = 0; i < links->count; i++) {
         const OstLink *link = &links->link[i];
         double arm[3];
         if (link->face < 0)
             continue;
         ost_rigid_face_arm(links, link, arm);
-        ost_add_turning(arm, force + 3 * (size_t)link->node, 1.0, turning + 9 * link->face);
+        add_force(arm, force + 3 * (size_t)link->node, 1.0, turning + 9 * link->face, moment + 3 * link->face);
     }
-    return ost_sum(links->ctx, 9 * links->face_count, turning);
+    return ost_sum(links->ctx, 12 * links->face_count, turning);
 }
 
 /* Of a component that is given nothing is left; of what softens, if it is to be definite. */
@@ -170,6 +180,7 @@ static OstStatus restrict_to_free(OstContext *ctx, const OstRigidFace *face, int
 static OstStatus turn_faces(const OstProblem *problem, double t, const double *force, int definite, double *turning)
 {
     const OstLinks *links = problem->supports->links;
+    double *moment = turning + 9 * links->face_count;
     OstStatus status = sum_nodes(links, force, turning);
     for (int f = 0; f < links->face_count && status == OST_SUCCESS; f++) {
         double lever[9], arm[3][3], at_arm[3][3];
@@ -177,15 +188,36 @@ static OstStatus turn_faces(const OstProblem *problem, double t, const double *f
             lever_at(problem, f, t, lever);
             find_arms(&links->face[f].now, lever, arm, at_arm);
             for (int k = 0; k < 3; k++)
-                ost_add_turning(arm[k], at_arm[k], -1.0, turning + 9 * f);
+                add_force(arm[k], at_arm[k], -1.0, turning + 9 * f, moment + 3 * f);
         }
+        if (links->face[f].by_vector)
+            ost_rigid_face_turn_vector(&links->face[f], moment + 3 * f, turning + 9 * f);
         status = restrict_to_free(problem->ctx, &links->face[f], definite, turning + 9 * f);
     }
     return ost_agree(problem->ctx, status);
 }
 
-OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const double *u, int definite,
-                                   OstTurning *turning)
+/* The forces that turn, with the stress of the tangent. */
+static OstStatus find_forces(const OstProblem *problem, double t, const OstTangent *tangent, double **force)
+{
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    double *internal = NULL;
+    OST_TRY(ost_problem_out_of_balance(problem, t, tangent->u, force));
+    ost_problem_add_levers(problem, t, *force); /* forces at levers are not those that they are spread as */
+    if (!tangent->from)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(problem->ctx, &internal, 2 * owned);
+    OST_THEN(ost_internal_force_along(problem->mesh, problem->field, tangent->t, tangent->u, tangent->from, tangent->to,
+                                      internal));
+    OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, tangent->t, tangent->u,
+                                   internal + owned, NULL));
+    for (size_t i = 0; i < owned && status == OST_SUCCESS; i++)
+        (*force)[i] += internal[i] - internal[owned + i];
+    OST_FREE(internal);
+    return ost_agree(problem->ctx, status);
+}
+
+OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const OstTangent *tangent, OstTurning *turning)
 {
     const OstLinks *links = problem->supports->links;
     const int turns = ost_problem_has_turning(problem);
@@ -193,15 +225,13 @@ OstStatus ost_problem_find_turning(const OstProblem *problem, double t, const do
     *turning = (OstTurning){0};
     if (!turns && !(links && links->gaps))
         return OST_SUCCESS;
-    OstStatus status = OST_NEW(problem->ctx, &turning->faces, turns ? 9 * (size_t)links->face_count : 0);
+    OstStatus status = OST_NEW(problem->ctx, &turning->faces, turns ? 12 * (size_t)links->face_count : 0);
     OST_THEN(OST_NEW(problem->ctx, &turning->levers, 36 * (size_t)links->lever_count));
     status = ost_agree(problem->ctx, status);
-    OST_THEN(ost_problem_out_of_balance(problem, t, u, &force));
-    if (status == OST_SUCCESS) /* forces at levers are not those that they are spread as */
-        ost_problem_add_levers(problem, t, force);
+    OST_THEN(find_forces(problem, t, tangent, &force));
     if (turns)
-        OST_THEN(turn_faces(problem, t, force, definite, turning->faces));
-    OST_THEN(ost_levers_bend(links, u, force, definite, turning->levers));
+        OST_THEN(turn_faces(problem, t, force, tangent->definite, turning->faces));
+    OST_THEN(ost_levers_bend(links, tangent->u, force, tangent->definite, turning->levers));
     OST_FREE(force);
     if (!turns)
         OST_FREE(turning->faces);
@@ -223,10 +253,13 @@ static void give_motions(const OstProblem *problem, double t, OstRigidMotion *mo
         }
         for (int i = 0; i < 3; i++)
             motion[f].shift[i] = face->constrained[i] ? given[i] : motion[f].shift[i];
-        if (face->carrier[1] >= 0)
+        if (face->carrier[1] >= 0 && !face->by_vector)
             continue;
-        memcpy(motion[f].turn, (double[]){1.0, 0.0, 0.0, 0.0}, sizeof motion[f].turn);
-        ost_rigid_motion_turn_by(given + 3, &motion[f]);
+        double vector[3];
+        ost_rigid_motion_vector(&motion[f], vector);
+        for (int i = 0; i < 3; i++)
+            vector[i] = face->constrained[3 + i] ? given[3 + i] : vector[i];
+        ost_rigid_motion_set_vector(vector, &motion[f]);
     }
 }
 

@@ -79,7 +79,7 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
     if (analysis->problem->automatic && !result->newton.used && ost_buckling_ends(result))
         ost_buckling_object(result);
     if (analysis->problem->driven)
-        OST_TRY(ost_distributing_react(analysis->problem, result));
+        OST_TRY(ost_distributing_react(analysis->problem, t, result));
     if (solved_for->errors.known) /* one error of the displacement is stated */
         result->solve.error_estimate = solved_for->errors.displacement;
     if (solved_for->errors.corrected)

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_SOLVE_NEWTON_DATA_H
 #define ORTHOSTAT_SOLVE_NEWTON_DATA_H
 
+#include "solve/distributing/turned.h"
 #include "solve/newton.h"
 
 /* How the search for a state at rest ended. */
@@ -55,6 +56,11 @@ struct OstNewton {
     double rounding;               /* about what rounding of the displacement leaves of the residual */
     double size;                   /* of load and reactions, or `driving`: what the residual is relative to */
 
+    /* Distributing couplings that are moved, or NULL. Their multipliers are at the displacement's end too. */
+    OstTurnedCouplings *couplings;
+    int multipliers;
+    double driven; /* the residual's norm without what given motions lack */
+
     /* The last correction: */
     double change;    /* its 2-norm over that of the displacement */
     double forcing;   /* relative residual of its linear solve */
@@ -91,6 +97,12 @@ static inline int ost_newton_is_mixed(const OstNewton *newton)
     return newton->problem->pressures != NULL;
 }
 
+/* Is the state one where nothing is minimised? Corrections are then taken whole. */
+static inline int ost_newton_is_saddle(const OstNewton *newton)
+{
+    return ost_newton_is_mixed(newton) || newton->couplings;
+}
+
 /* Has the stiffness an unsymmetric part? */
 static inline int ost_newton_is_unsymmetric(const OstNewton *newton)
 {
@@ -112,6 +124,9 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
 /* Collective. from + length × direction (count each), on rigid faces along the curve on which they keep their shape. */
 OstStatus ost_newton_move(const OstNewton *newton, const double *from, const double *direction, double length,
                           double *to);
+
+/* Collective. By the exact stiffness; where couplings move the body, one that is indefinite serves too. */
+OstStatus ost_newton_solve_held(OstNewton *newton, double forcing, const double *rhs, int *found);
 
 /* Collective. The correction on the nodes, ghosts included: zero where the displacement is prescribed. */
 OstStatus ost_newton_spread(const OstNewton *newton, const double *correction, double *direction);

@@ -23,7 +23,7 @@ static const double most_risen = 10.0;
 
 static double loosest_forcing(const OstNewton *newton, double before)
 {
-    if (ost_newton_is_mixed(newton))
+    if (ost_newton_is_saddle(newton))
         return loosest_mixed;
     const double risen = fmax(0.1 * newton->norm / newton->size, before > 0.0 ? newton->norm / before : 0.0);
     return loosest / fmin(fmax(risen, 1.0), most_risen);
@@ -47,6 +47,9 @@ static const double drowned_residual = 1e-14;
 
 /* Corrections below this, relative to the displacement, that no longer lower the residual are rounding. */
 static const double rounding_change = 1e-9;
+
+/* Where couplings move the body the strain energy may rise to so many times that of the predicted state. */
+static const double most_strained = 10.0;
 
 /* Iterations with the definite stiffness do not count as those of a slow search; every few of them the exact one is
  * tried again. */
@@ -89,7 +92,7 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
 {
     const OstProblem *problem = newton->problem;
     double sums[SUMS] = {0.0}, strain_energy = 0.0, work = 0.0;
-    const int load_depends_on_u = problem->follower || problem->lever;
+    const int load_depends_on_u = problem->follower || problem->lever || newton->couplings;
     if (ost_newton_is_mixed(newton))
         ost_newton_take_pressure(newton, displacement);
     OST_TRY(ost_problem_turn(problem, displacement));
@@ -99,6 +102,11 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
     if (load_depends_on_u) {
         ost_problem_load(problem, newton->t, displacement, newton->load);
         OST_TRY(ost_problem_load_work(problem, newton->t, displacement, &work));
+    }
+    if (newton->couplings) {
+        OST_TRY(ost_turned_couplings_move(newton->couplings, newton->t, displacement,
+                                          displacement + newton->count - newton->multipliers));
+        ost_turned_couplings_add(newton->couplings, newton->load);
     }
     OST_TRY(find_residual(newton));
     for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++) {
@@ -113,6 +121,9 @@ OstStatus ost_newton_evaluate(OstNewton *newton, const double *displacement)
         OST_TRY(ost_agree(newton->ctx, ost_newton_find_volume(newton, displacement)));
         OST_TRY(ost_newton_mixed_norm(newton, &newton->norm));
     }
+    newton->driven = newton->norm;
+    if (newton->couplings)
+        newton->norm = sqrt(newton->norm * newton->norm + ost_turned_couplings_lack(newton->couplings));
     newton->energy = ost_newton_has_energy(newton) ? strain_energy - work : 0.0;
     newton->strain_energy = strain_energy;
     newton->energy_size = fabs(strain_energy) + fabs(work);
@@ -161,7 +172,7 @@ static OstStatus measure_decrement(OstNewton *newton)
     for (size_t i = rows; i < rows + pressures; i++)
         work -= newton->residual[i] * newton->correction[i];
     OST_TRY(ost_sum(newton->ctx, 1, &work));
-    newton->decrement = work >= 0.0 ? sqrt(work) : INFINITY;
+    newton->decrement = work >= 0.0 && !newton->couplings ? sqrt(work) : INFINITY;
     return OST_SUCCESS;
 }
 
@@ -182,7 +193,7 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
     int found = 0;
     *length = 0.0;
     if (!*definite) {
-        OST_TRY(ost_newton_solve(newton, 0, forcing, newton->residual, &found));
+        OST_TRY(ost_newton_solve_held(newton, forcing, newton->residual, &found));
         *definite = !found;
         newton->indefinite |= !found;
     }
@@ -193,7 +204,7 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
         return OST_SUCCESS;
     newton->forcing = forcing;
     OST_TRY(measure_decrement(newton));
-    newton->leaving = *definite && ost_newton_has_energy(newton);
+    newton->leaving = *definite && ost_newton_has_energy(newton) && !newton->couplings;
     OST_TRY(ost_newton_search(newton, length));
     if (*definite || *length != 1.0)
         newton->decrement = INFINITY;
@@ -204,6 +215,12 @@ static OstStatus iterate(OstNewton *newton, int *definite, double forcing, doubl
     OST_TRY(measure_change(newton, *length));
     tell(newton, *definite, *length);
     return OST_SUCCESS;
+}
+
+/* Whole corrections that lead away strain the body more and more. */
+static int leads_away(const OstNewton *newton, double strained)
+{
+    return newton->couplings && strained > 0.0 && newton->strain_energy > most_strained * strained;
 }
 
 static int is_enough(const OstNewton *newton)
@@ -222,13 +239,15 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
         newton->recent[k] = newton->energy;
     newton->decrement = INFINITY;
     newton->stopped = newton->trial.steps = 0;
+    const double strained = newton->strain_energy;
     for (int k = 0;; k++) {
         const double target = newton->options.relative_residual * newton->size;
         const int is_rounding = newton->norm <= drowned_residual * newton->size;
         const int is_settled = newton->change <= settled || (is_rounding && k > 0); /* else `change` says nothing */
         newton->stopped = newton->norm > target && is_enough(newton);
         *rest = (newton->norm <= target || newton->stopped) && is_settled ? OST_REST_FOUND : OST_REST_SLOW;
-        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == newton->most_descents)
+        if (*rest == OST_REST_FOUND || k - descents == most_iterations || descents == newton->most_descents ||
+            leads_away(newton, strained))
             return OST_SUCCESS;
         if (k > 0)
             forcing = next_forcing(newton, forcing, before);
@@ -256,7 +275,7 @@ OstStatus ost_newton_find_rest(OstNewton *newton, int most_iterations, OstRest *
 OstStatus ost_newton_find_errors(OstNewton *newton)
 {
     newton->errors = (OstErrors){0};
-    if (ost_newton_is_mixed(newton) || ost_newton_is_unsymmetric(newton))
+    if (ost_newton_is_saddle(newton) || ost_newton_is_unsymmetric(newton))
         return OST_SUCCESS;
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     if (newton->norm <= drowned_residual * newton->size)

@@ -218,7 +218,7 @@ OstStatus ost_newton_search(OstNewton *newton, double *length)
     Point start, point;
     OST_TRY(measure(newton, 0.0, &start));
     *length = 0.0;
-    if (ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton))
+    if (ost_newton_is_unsymmetric(newton) || ost_newton_is_saddle(newton))
         return take_whole(newton, &start, length);
     if (newton->trial.steps > 0)
         return go_on_trying(newton, &start, length);

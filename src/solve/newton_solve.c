@@ -139,11 +139,28 @@ static OstStatus solve_skew(OstNewton *newton, double forcing, const double *rhs
     return status;
 }
 
+/* By the stiffness that the solver has. */
+static OstStatus solve(OstNewton *newton, int unsymmetric, double forcing, const double *rhs)
+{
+    if (unsymmetric)
+        return solve_skew(newton, forcing, rhs);
+    return ost_newton_is_mixed(newton)
+               ? ost_newton_solve_mixed(newton, rhs)
+               : ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+}
+
+/* By GMRES? Without what moved couplings hold the stiffness may be indefinite though the body is stable. */
+static int is_unsymmetric(const OstNewton *newton, int definite)
+{
+    const int held = newton->couplings && newton->indefinite;
+    return (ost_newton_is_unsymmetric(newton) || held) && !definite && !newton->without_skew;
+}
+
 /* One attempt. *again: the hierarchy was old, and a new one may find what it did not. */
 static OstStatus attempt(OstNewton *newton, int definite, double forcing, const double *rhs, int *again)
 {
     const int old = !newton->rebuild && newton->solve.method != OST_METHOD_DIRECT;
-    const int unsymmetric = ost_newton_is_unsymmetric(newton) && !definite && !newton->without_skew;
+    const int unsymmetric = is_unsymmetric(newton, definite);
     OstStatus status;
     ost_solver_aim(newton->stiffness->solver,
                    (OstSolverAim){.relative_residual = forcing,
@@ -154,22 +171,49 @@ static OstStatus attempt(OstNewton *newton, int definite, double forcing, const 
     newton->solve.indefinite = 0;
     if (unsymmetric) {
         OST_TRY(update_unsymmetric(newton));
-        status = solve_skew(newton, accurate, rhs);
+        status = solve(newton, 1, accurate, rhs);
         if (newton->solve.relative_residual > inaccurate) {
             newton->rebuild = 1;
             newton->method = OST_METHOD_DIRECT;
         }
     } else {
         OST_TRY(update(newton, definite));
-        status = ost_newton_is_mixed(newton)
-                     ? ost_newton_solve_mixed(newton, rhs)
-                     : ost_solver_solve(newton->stiffness->solver, rhs, newton->correction, &newton->solve);
+        status = solve(newton, 0, forcing, rhs);
     }
     newton->report.linear_iterations += newton->solve.iterations;
     *again = can_go_on(status) && old && !newton->solve.indefinite;
     if (status == OST_SUCCESS && !old)
         newton->method = newton->solve.method;
     return status;
+}
+
+/* What moved couplings do to a correction. */
+typedef struct Moved {
+    OstNewton *newton;
+    int unsymmetric;
+} Moved;
+
+static OstStatus solve_moved(void *data, const double *rhs, double *x, int *found)
+{
+    const Moved *moved = data;
+    OstNewton *newton = moved->newton;
+    double *const correction = newton->correction;
+    newton->correction = x;
+    const OstStatus status = solve(newton, moved->unsymmetric, accurate, rhs);
+    newton->correction = correction;
+    newton->report.linear_iterations += newton->solve.iterations;
+    *found = status == OST_SUCCESS;
+    return can_go_on(status) ? OST_SUCCESS : status;
+}
+
+static OstStatus move_couplings(OstNewton *newton, int definite, int *found)
+{
+    Moved moved = {newton, is_unsymmetric(newton, definite)};
+    const OstSolveReport solve_report = newton->solve;
+    double *change = newton->direction + newton->count - newton->multipliers;
+    OST_TRY(ost_turned_couplings_correct(newton->couplings, solve_moved, &moved, newton->correction, change, found));
+    newton->solve = solve_report;
+    return OST_SUCCESS;
 }
 
 OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, const double *rhs, int *found)
@@ -190,5 +234,16 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
     OST_TRY(status);
     judge_hierarchy(newton);
     *found = 1;
+    if (newton->couplings)
+        OST_TRY(move_couplings(newton, definite, found));
     return ost_newton_spread(newton, newton->correction, newton->direction);
+}
+
+OstStatus ost_newton_solve_held(OstNewton *newton, double forcing, const double *rhs, int *found)
+{
+    OST_TRY(ost_newton_solve(newton, 0, forcing, rhs, found));
+    if (*found || !newton->couplings || newton->indefinite)
+        return OST_SUCCESS;
+    newton->indefinite = newton->rebuild = 1;
+    return ost_newton_solve(newton, 0, forcing, rhs, found);
 }

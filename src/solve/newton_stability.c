@@ -100,6 +100,29 @@ static OstStatus probe_without_skew(OstNewton *newton)
     return status;
 }
 
+/* The stiffness without the couplings may be indefinite though the body is stable: as many of its eigenvalues may be
+ * negative as they hold. A state that is not stable is not left: whole corrections would lead back. */
+static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
+{
+    double size = 0.0;
+    int found = 0, stable = 0, known = 1;
+    OstGlobal negative = 0;
+    newton->moved = 0;
+    OST_TRY(ost_newton_evaluate(newton, newton->displacement));
+    OST_TRY(smooth_forces(newton, newton->residual, &size));
+    OST_TRY(ost_newton_solve_held(newton, 1e-3, newton->residual, &found));
+    if (newton->indefinite)
+        OST_TRY(ost_solver_count_negative(newton->stiffness->solver,
+                                          ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL, &negative,
+                                          &known));
+    known &= found;
+    if (known)
+        OST_TRY(ost_turned_couplings_are_stable(newton->couplings, negative, &stable));
+    newton->report.stability_unknown = known ? 0 : 3;
+    *rest = stable || !known ? OST_REST_FOUND : OST_REST_UNSTABLE;
+    return OST_SUCCESS;
+}
+
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest)
 {
     *rest = OST_REST_FOUND;
@@ -107,6 +130,8 @@ OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *res
         return probe_without_skew(newton);
     if (!ost_newton_has_energy(newton))
         return OST_SUCCESS;
+    if (newton->couplings)
+        return probe_moved(newton, rest);
     for (int attempt = 0;; attempt++) {
         double size = 0.0;
         int stable = 0, found = 0;

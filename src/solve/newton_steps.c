@@ -49,7 +49,8 @@ enum { MOST_DESCENTS = 100, FEW_DESCENTS = 3 };
 
 size_t ost_newton_state_size(const OstProblem *problem)
 {
-    return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0);
+    return 3 * (size_t)problem->mesh->node_count + (problem->pressures ? (size_t)problem->pressures->count : 0) +
+           (size_t)ost_turned_couplings_count(problem);
 }
 
 OstStatus ost_newton_state_create(const OstProblem *problem, OstNewtonState *state)
@@ -123,6 +124,10 @@ OstStatus ost_newton_create(OstStiffnessSolver *stiffness, const OstSolveReport 
             OST_THEN(OST_NEW(ctx, &made->of_tets, 4 * (size_t)problem->mesh->tet_count));
     }
     status = ost_agree(ctx, status);
+    if (status == OST_SUCCESS && ost_turned_couplings_count(problem) > 0) {
+        made->multipliers = ost_turned_couplings_count(problem);
+        status = ost_turned_couplings_create(problem, rows, &made->couplings);
+    }
     OST_THEN(measure_stiffness(stiffness));
     if (status != OST_SUCCESS)
         ost_newton_destroy(&made);
@@ -138,6 +143,7 @@ void ost_newton_destroy(OstNewton **newton)
         return;
     if ((*newton)->of_tets)
         ost_problem_take_pressure((*newton)->problem, NULL);
+    ost_turned_couplings_destroy(&(*newton)->couplings);
     OST_FREE((*newton)->of_tets);
     OST_FREE((*newton)->displacement);
     OST_FREE((*newton)->candidate);
@@ -172,7 +178,7 @@ static OstStatus load_to(OstNewton *newton, const OstNewtonState *state, double 
     newton->t = t;
     ost_problem_load(newton->problem, t, state->displacement, newton->load);
     OST_TRY(ost_newton_evaluate(newton, state->displacement));
-    newton->driving = fmax(newton->driving, newton->norm);
+    newton->driving = fmax(newton->driving, newton->driven);
     return OST_SUCCESS;
 }
 
@@ -236,7 +242,7 @@ static OstStatus find_slope(OstNewton *newton, double t, OstNewtonState *state)
 /* Does a definite stiffness not mean a stable state, or an indefinite one an unstable state? */
 static int jumps_by_tangent(const OstNewton *newton)
 {
-    return ost_newton_is_unsymmetric(newton) || ost_newton_is_mixed(newton);
+    return ost_newton_is_unsymmetric(newton) || ost_newton_is_saddle(newton);
 }
 
 /* Is the state found farther from the predicted one than that was from the last? */
@@ -417,7 +423,7 @@ static OstStatus advance(OstNewton *newton, double to, OstNewtonState *state)
     const double span = to - state->t;
     const double longest = newton->options.load_steps > 0 ? span / newton->options.load_steps : span;
     const double least_jump_step = jumps_by_tangent(newton) ? jump_step_by_tangent : jump_step;
-    int follows = ost_newton_has_energy(newton) && !ost_newton_is_mixed(newton); /* by short steps, if need be */
+    int follows = ost_newton_has_energy(newton) && !ost_newton_is_saddle(newton); /* by short steps, if need be */
     OST_TRY(renew_hierarchy(newton, state));
     if (!(state->step > 0.0))
         OST_TRY(find_slope(newton, to, state));
@@ -469,6 +475,8 @@ OstStatus ost_newton_fill(OstNewton *newton, const OstNewtonState *state, OstRes
 {
     OST_TRY(load_to(newton, state, state->t));
     memcpy(result->displacement, state->displacement, 3 * (size_t)result->mesh->node_count * sizeof(double));
+    if (newton->couplings)
+        OST_TRY(ost_turned_couplings_apply(newton->couplings, state->t));
     if (newton->of_tets)
         memcpy(result->pressure, newton->of_tets, 4 * (size_t)result->mesh->tet_count * sizeof(double));
     newton->report.relative_residual = newton->norm / newton->size;

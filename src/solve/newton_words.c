@@ -60,7 +60,11 @@ OstStatus ost_newton_give_up(OstNewton *newton, const OstNewtonState *state, dou
                  "%.4g): refine the mesh there, spread the load, or use stiffer or less compressible material",
                  (long long)worst.inverted, (long long)worst.tet, mesh->regions.name[worst.region], worst.place[0],
                  worst.place[1], worst.place[2]);
-    else if (newton->indefinite || rest == OST_REST_UNSTABLE)
+    else if (newton->couplings && rest == OST_REST_UNSTABLE)
+        snprintf(reason, sizeof reason,
+                 "the state at rest there is not stable: the body buckles, and where a distributing coupling moves it "
+                 "no other state is looked for; move it by less, or make the face 'rigid', which is followed there");
+    else if ((newton->indefinite && !newton->couplings) || rest == OST_REST_UNSTABLE)
         snprintf(reason, sizeof reason,
                  "the stiffness is indefinite there (negative curvature of the energy): the body buckles, or the load "
                  "passes a limit point beyond which nothing at rest was found near by; lower the load, or prescribe "

@@ -4,6 +4,7 @@
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
 #include "solve/buckling/buckling.h"
+#include "solve/distributing/distributing.h"
 #include "solve/left_out/left_out.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
@@ -88,11 +89,12 @@ int ost_nonlinear_may_be_mixed(const OstProblem *problem)
 }
 
 /* Is a pose known that a load step can go to at once? A rigid face goes along its rotation, which a pose does not
- * tell; and it has no pressures. */
+ * tell; and it has neither pressures nor the forces of moved couplings. */
 static int has_pose(const OstAnalysis *analysis)
 {
     const OstProblem *problem = analysis->problem;
-    return analysis->pose && !problem->pressures && !ost_problem_has_turning(problem);
+    return analysis->pose && !problem->pressures && !ost_problem_has_turning(problem) &&
+           !ost_turned_couplings_count(problem);
 }
 
 /* The state without load, and what the linear solution predicts, or the answer on a coarser mesh. */
@@ -107,6 +109,8 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
         memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->owned * sizeof(double));
         OST_TRY(ost_pressure_complete(problem->pressures, state->slope + nodes));
     }
+    ost_turned_couplings_begin(problem,
+                               state->slope + ost_newton_state_size(problem) - ost_turned_couplings_count(problem));
     state->step = ost_newton_first_step(result->newton.linear_rotation);
     if (has_pose(analysis)) {
         memcpy(state->slope, analysis->pose, nodes * sizeof(double));
@@ -189,7 +193,7 @@ OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *resu
     if (!linear->stiffness.solver)
         status = ost_stiffness_solver_make(&linear->stiffness);
     OST_THEN(ost_left_out_find(analysis->problem, linear->stiffness.solver, result));
-    if (result->newton.linear_error <= analysis->problem->accuracy)
+    if (result->newton.linear_error <= analysis->problem->accuracy && !ost_distributing_any(analysis->problem))
         OST_THEN(ost_buckling_judge(analysis->problem, linear->stiffness.solver, result));
     ost_ledger_leave(analysis->ctx);
     return status;

@@ -97,12 +97,31 @@ loaded = values_of(f"{{on: {{boundary: xmax}}, total_force: [0, 0, {moved['force
 for key in "middle", "energy":
     check(abs(moved[key] - loaded[key]) <= 1e-7 * abs(loaded[key]), f"{key} of a moved end: {moved[key]}, of a loaded one {loaded[key]}")
 
+# With large rotations: the moment of a circle's arc; force and moment are the energy's derivatives by the motion of their point.
+BENT = {"less": ("rotation: [0, -1.99, free]", 1.99), "more": ("rotation: [0, -2.01, free]", 2.01),
+        "low": ("displacement: [free, free, 2.98]", 0.0), "high": ("displacement: [free, free, 3.02]", 0.0)}
+text = BAR.replace("[10, 2, 2]", "[6, 1, 1]").replace("output:", "  energy: strain_energy\noutput:") + "large_rotation: on\ncases:\n" + "".join(
+    f"  - {{name: {name}, loads: [{{on: {{boundary: xmax}}, distributing: {{at: [11, 0.5, 0.5], {motion}}}}}]}}\n" for name, (motion, _) in BENT.items())
+finished = run("solve", "bar.yaml", "-q", "--json", "-", ranks=2, folder=write(text))
+check(finished.exit_code == 0, finished.errors)
+found = {one["load_case"]: one for one in json.loads(finished.output)["cases"]}
+values = {name: {key: value["value"] for key, value in one["watched"].items()} for name, one in found.items()}
+moments = {name: -one["moment"] for name, one in values.items()}
+for name, (_, angle) in BENT.items():
+    check(abs(moments[name] / (BENDING * angle / 10) - 1) <= 0.01 if angle else True, f"{name}: {values[name]}")
+    check(found[name]["large_rotation"]["newton_iterations"] <= 20 and not found[name]["large_rotation"]["stability_unknown"], f"{found[name]}")
+forces = {name: one["force"] for name, one in values.items()}
+for a, b, step, does in ("less", "more", 0.02, moments), ("low", "high", 0.04, forces):
+    rate, mean = (values[b]["energy"] - values[a]["energy"]) / step, (does[a] + does[b]) / 2
+    check(abs(rate / mean - 1) <= 1e-4, f"{a} and {b}: by the energy {rate}, by forces {mean}")
+
 MOVED = "loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]\n"
 for text, words in ((MOVED.replace("displacement: [0.02, free, free]", "displacement: [free, free, free]"), "no component"),
-                    (MOVED + "large_rotation: on\n", "leave out 'large_rotation: on'"),
                     (MOVED + "path: {steps: 2}\n", "leave out 'path'"),
                     (MOVED.replace("xmax", "xmin"), "given already"),
                     (MOVED.replace("}}]", "}}, {on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.03, free, free]}}]"),
                      "given already")):
     refused = run("solve", "bar.yaml", "-q", folder=write(BAR + text))
     check(refused.exit_code == 2 and words in refused.errors, f"{words}: {refused.exit_code}, {refused.errors}")
+buckled = run("solve", "bar.yaml", "-q", folder=write(BAR + MOVED.replace("0.02", "-0.5") + "large_rotation: on\n"))
+check(buckled.exit_code == 1 and "make the face 'rigid'" in buckled.errors, f"{buckled.exit_code}, {buckled.errors}")

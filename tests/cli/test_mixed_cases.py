@@ -76,8 +76,7 @@ for body, (material, names) in list(BODIES.items())[:2 if SANITIZED else None]:
 folder = new_folder()
 write(folder, "case.yaml", BODY.replace("MATERIAL", BODIES["rubber"][0]) + "cases:\n"
       + "".join(f"  - name: {name}\n    {text}\n" for name, text in CASES.items()))
-for arguments, large in ((), "on +auto: .*; not in 2 of 12 load cases"), (("--case", "force"), "on +auto: [^;]*$"), \
-        (("--case", "moved"), "off +a body with"):
+for arguments, large in ((), "on +auto: [^;]*$"), (("--case", "moved"), "on +auto: [^;]*$"):
     finished = run("explain", "case.yaml", *arguments, folder=folder)
     check(re.search(f"large rotation +{large}", finished.output, re.M), finished.output)
     check(re.search("mixed form +on +[^;]*$", finished.output, re.M), finished.output)

@@ -71,7 +71,7 @@ static void energy_of(const Case *test, OstFormulation formulation, OstSimd *ene
 
 static void force_of(const Case *test, OstFormulation formulation, OstSimd *force)
 {
-    ost_large_rotation_force(test->element, formulation, test->x, &test->elasticity, test->u, force);
+    ost_large_rotation_force(test->element, formulation, test->x, &test->elasticity, test->u, NULL, force);
 }
 
 static void stiffness_of(const Case *test, OstFormulation formulation, int definite, int slot, double *k)
@@ -221,8 +221,9 @@ static double resistance_to_turning(const Case *test, const OstSimd *from, int s
 {
     OstSimd blocks[9 * MOST_NODES * (MOST_NODES + 1) / 2];
     double k[WIDTH * WIDTH], most = 0.0;
-    ost_large_rotation_stiffness(test->element, OST_FORMULATION_CONSISTENT, test->x, &test->elasticity, test->u, from,
-                                 0, blocks);
+    const OstLastStep last = {from, test->u};
+    ost_large_rotation_stiffness(test->element, OST_FORMULATION_CONSISTENT, test->x, &test->elasticity, test->u,
+                                 from ? &last : NULL, 0, blocks);
     full_matrix(test->element->nodes, blocks, slot, k);
     for (int i = 0; i < test->width; i++) {
         double sum = 0.0;

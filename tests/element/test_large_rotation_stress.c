@@ -71,7 +71,7 @@ static void mean_stress_is_that_of_the_forces(void **state)
             OstSimd force[WIDTH], stress[6], volume;
             make_case(kind == 0 ? 4 : 10, kind == 2, 0.03, &test);
             volume_now(&test, &volume);
-            ost_large_rotation_force(test.element, (OstFormulation)f, test.x, &test.elasticity, test.u, force);
+            ost_large_rotation_force(test.element, (OstFormulation)f, test.x, &test.elasticity, test.u, NULL, force);
             ost_large_rotation_mean_stress(test.element, (OstFormulation)f, test.x, &test.elasticity, test.u, stress);
             for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
                 for (int p = 0; p < 6; p++) {
@@ -130,7 +130,7 @@ static void tiny_displacements_keep_their_digits(void **state)
         for (int twice = 0; twice < 2; twice++) {
             for (int n = 0; n < 3 * nodes; n++)
                 test.u[n] *= twice ? 2.0 : 1e-14;
-            ost_large_rotation_force(test.element, OST_FORMULATION_CLASSICAL, test.x, &test.elasticity, test.u,
+            ost_large_rotation_force(test.element, OST_FORMULATION_CLASSICAL, test.x, &test.elasticity, test.u, NULL,
                                      force[twice]);
         }
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {

@@ -69,7 +69,7 @@ static void rounding_errors_are_told_by_the_linear_magnitude(void **state)
                 OstSimd x[WIDTH], u[WIDTH], at_rest[WIDTH], right[WIDTH], force[WIDTH], magnitude[WIDTH];
                 double turn[9];
                 make_tets(nodes, stretches[s], 0.0, 0.0, x, u);
-                ost_large_rotation_force(element, OST_FORMULATION_CONSISTENT, x, &elasticity, u, at_rest);
+                ost_large_rotation_force(element, OST_FORMULATION_CONSISTENT, x, &elasticity, u, NULL, at_rest);
                 rotation_by(angle, turn);
                 for (int i = 0; i < 3 * nodes; i++) {
                     const double *row = turn + 3 * (i % 3);
@@ -77,7 +77,7 @@ static void rounding_errors_are_told_by_the_linear_magnitude(void **state)
                     right[i] = row[0] * of_node[0] + row[1] * of_node[1] + row[2] * of_node[2];
                 }
                 make_tets(nodes, stretches[s], angle, distances[n / 6], x, u);
-                ost_large_rotation_force(element, OST_FORMULATION_CONSISTENT, x, &elasticity, u, force);
+                ost_large_rotation_force(element, OST_FORMULATION_CONSISTENT, x, &elasticity, u, NULL, force);
                 element->magnitude(x, &elasticity, u, magnitude);
                 for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
                     worst = fmax(worst, error_in_steps(nodes, force, right, magnitude, slot));

@@ -343,6 +343,8 @@ static void rigid_faces_turn_under_their_energy(void **state)
     assert_consistent(end, "rigid: [4, 2, 1]");
     assert_consistent(end, "rigid: {at: [3, 1, 1], displacement: [0.5, free, 0.2], rotation: [0, free, 0]}");
     assert_consistent(end, "rigid: {at: [4, 2, 1], displacement: [free, 1, free], rotation: [1, -2, 0.5]}");
+    assert_consistent(end, "rigid: {at: [4, 2, 1], displacement: [free, 1, free], rotation: [1, free, -0.8]}");
+    assert_consistent(end, "rigid: {at: [4, 2, 1], rotation: [free, 0.7, free]}");
 }
 
 /* The end follows the other one, three units away; one of those that it follows slides. */

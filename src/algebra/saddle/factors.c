@@ -59,7 +59,7 @@ static void find_own(List *list, OstGlobal first)
                 list->u_scale[3 * (size_t)i + (size_t)c] = one_over_root(block[4 * c]);
         }
     }
-    for (OstLocal i = 0; i < coupling->rows; i++) {
+    for (OstLocal i = 0; coupling && i < coupling->rows; i++) {
         list->p_number[i] = first + 3 * (OstGlobal)matrix->rows + i;
         list->p_scale[i] = one_over_root(coupling->schur[i] * coupling->diagonal[i]);
     }
@@ -69,15 +69,18 @@ static OstStatus find_columns(List *list, OstGlobal first)
 {
     const OstDoubleMatrix *matrix = list->matrix;
     const OstCoupling *coupling = list->coupling;
-    OstContext *ctx = coupling->ctx;
+    OstContext *ctx = matrix->ctx;
+    const OstLocal pressures = coupling ? coupling->columns : 0;
     OstStatus status = OST_NEW(ctx, &list->u_number, matrix->columns);
     OST_THEN(OST_NEW(ctx, &list->u_scale, 3 * (size_t)matrix->columns));
-    OST_THEN(OST_NEW(ctx, &list->p_number, coupling->columns));
-    OST_THEN(OST_NEW(ctx, &list->p_scale, coupling->columns));
+    OST_THEN(OST_NEW(ctx, &list->p_number, pressures));
+    OST_THEN(OST_NEW(ctx, &list->p_scale, pressures));
     OST_TRY(ost_agree(ctx, status));
     find_own(list, first);
     OST_TRY(ost_halo_import(matrix->halo, sizeof *list->u_number, list->u_number));
     OST_TRY(ost_halo_import(matrix->halo, 3 * sizeof *list->u_scale, list->u_scale));
+    if (!coupling)
+        return OST_SUCCESS;
     OST_TRY(ost_halo_import(coupling->halo, sizeof *list->p_number, list->p_number));
     return ost_halo_import(coupling->halo, sizeof *list->p_scale, list->p_scale);
 }
@@ -139,15 +142,17 @@ static void list_coupling(List *list)
 static OstStatus list_entries(List *list)
 {
     const OstCoupling *coupling = list->coupling;
-    OstContext *ctx = coupling->ctx;
-    const size_t most = 9 * (size_t)list->matrix->row_start[list->matrix->rows] +
-                        3 * (size_t)coupling->row_start[coupling->rows] + (size_t)coupling->mass_start[coupling->rows];
+    OstContext *ctx = list->matrix->ctx;
+    size_t most = 9 * (size_t)list->matrix->row_start[list->matrix->rows];
+    if (coupling)
+        most += 3 * (size_t)coupling->row_start[coupling->rows] + (size_t)coupling->mass_start[coupling->rows];
     OstStatus status = OST_NEW(ctx, &list->entries.row, most);
     OST_THEN(OST_NEW(ctx, &list->entries.column, most));
     OST_THEN(OST_NEW(ctx, &list->entries.value, most));
     OST_TRY(ost_agree(ctx, status));
     list_stiffness(list);
-    list_coupling(list);
+    if (coupling)
+        list_coupling(list);
     return OST_SUCCESS;
 }
 
@@ -176,7 +181,7 @@ static OstStatus create(List *list, double memory, OstSaddleFactors *factors)
     OST_TRY(keep_scale(list, factors));
     OST_TRY(ost_mumps_create_symmetric(factors->ctx, (OstLocal)own, &list->entries, memory, &factors->negative,
                                        &factors->mumps));
-    factors->negative -= list->coupling->global_rows;
+    factors->negative -= list->coupling ? list->coupling->global_rows : 0;
     return OST_SUCCESS;
 }
 
@@ -190,7 +195,7 @@ OstStatus ost_saddle_factors_create(const OstBlockMatrix *matrix, const OstCoupl
     OstStatus status = OST_NEW(ctx, &made, 1);
     OST_THEN(ost_double_matrix_borrow(matrix, NULL, &view));
     OST_TRY_DONE(ost_agree(ctx, status));
-    *made = (OstSaddleFactors){.ctx = ctx, .n = 3 * (size_t)matrix->rows, .m = (size_t)coupling->rows};
+    *made = (OstSaddleFactors){.ctx = ctx, .n = 3 * (size_t)matrix->rows, .m = coupling ? (size_t)coupling->rows : 0};
     list.matrix = view;
     OST_TRY_DONE(create(&list, memory, made));
 done:

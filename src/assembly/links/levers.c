@@ -35,6 +35,15 @@ static void find_frame(const OstLever *lever, const OstLink *link, const double 
         frame->normal[i] /= frame->area;
 }
 
+/* The normal's derivative by a tangent is minus its reciprocal times the normal. */
+static void find_reciprocal(const Frame *frame, double reciprocal[2][3])
+{
+    ost_cross3(frame->tangent[1], frame->normal, reciprocal[0]);
+    ost_cross3(frame->normal, frame->tangent[0], reciprocal[1]);
+    for (int n = 0; n < 6; n++)
+        reciprocal[n / 3][n % 3] /= frame->area;
+}
+
 /* W(I - P), of what leaders' supports take. */
 static void set_held(OstLinks *links, const OstLever *lever, const OstLink *link)
 {
@@ -53,15 +62,13 @@ static void set_weights(OstLinks *links, OstLever *lever, const Frame *frame)
 {
     OstLink *link = &links->link[links->of_node[lever->node]];
     double reciprocal[2][3];
-    ost_cross3(frame->tangent[1], frame->normal, reciprocal[0]);
-    ost_cross3(frame->normal, frame->tangent[0], reciprocal[1]);
+    find_reciprocal(frame, reciprocal);
     for (int k = 0; k < link->count; k++) {
         double *weight = lever->weight[k];
         for (int n = 0; n < 9; n++) {
             weight[n] = n % 4 == 0 ? lever->share[k] : 0.0;
             for (int a = 0; a < 2; a++)
-                weight[n] -=
-                    lever->across * lever->slope[k][a] * reciprocal[a][n / 3] / frame->area * frame->normal[n % 3];
+                weight[n] -= lever->across * lever->slope[k][a] * reciprocal[a][n / 3] * frame->normal[n % 3];
         }
         ost_multiply3(weight, lever->projector[k], link->leader[k].weight);
     }
@@ -104,6 +111,41 @@ OstStatus ost_levers_put(const OstLinks *links, double *u)
     }
     OST_FREE(place);
     OST_THEN(ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 3 * sizeof(double), u)));
+    return status;
+}
+
+/* The derivative of the end's place along the changes of its leaders' places. */
+static void find_rate(const OstLever *lever, const OstLink *link, const Frame *frame, const double *change,
+                      double rate[3])
+{
+    double reciprocal[2][3];
+    find_reciprocal(frame, reciprocal);
+    memset(rate, 0, 3 * sizeof *rate);
+    for (int k = 0; k < link->count; k++) {
+        const double *of_leader = change + 3 * (size_t)link->slot[k], along = ost_dot3(frame->normal, of_leader);
+        for (int i = 0; i < 3; i++)
+            rate[i] +=
+                lever->share[k] * of_leader[i] -
+                lever->across * along * (lever->slope[k][0] * reciprocal[0][i] + lever->slope[k][1] * reciprocal[1][i]);
+    }
+}
+
+OstStatus ost_levers_change(const OstLinks *links, const double *from, double *change)
+{
+    double *place = NULL, *of_leaders = NULL;
+    if (!links || !links->gaps)
+        return OST_SUCCESS;
+    OstStatus status = at_slots(links, from, 1, &place);
+    OST_THEN(at_slots(links, change, 0, &of_leaders));
+    for (OstLocal i = 0; i < links->lever_count && status == OST_SUCCESS; i++) {
+        const OstLever *lever = &links->lever[i];
+        const OstLink *link = ost_link_of(links, lever->node);
+        Frame frame;
+        find_frame(lever, link, place, &frame);
+        find_rate(lever, link, &frame, of_leaders, change + 3 * (size_t)lever->node);
+    }
+    OST_FREE(place, of_leaders);
+    OST_THEN(ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 3 * sizeof(double), change)));
     return status;
 }
 

@@ -14,6 +14,9 @@ OstStatus ost_levers_turn(OstLinks *links, const double *u);
 /* Collective. Puts the ends of levers where their leaders take them; u is complete but for these, ghosts included. */
 OstStatus ost_levers_put(const OstLinks *links, double *u);
 
+/* Collective. Puts into `change` (3 × node_count, u - from elsewhere) the motion of levers' ends as it is begun. */
+OstStatus ost_levers_change(const OstLinks *links, const double *from, double *change);
+
 /* Collective. What forces (3 × owned_nodes) at their ends add to the stiffness, 36 numbers for each lever of this rank:
  * the second derivative of their work, but for its sign, by both tangents; made positive semidefinite if `definite`. */
 OstStatus ost_levers_bend(const OstLinks *links, const double *u, const double *out_of_balance, int definite,

@@ -44,6 +44,7 @@ typedef struct OstRigidFace {
     OstGlobal carrier[2]; /* of the displacement, and of the rotation times `length`; -1: all of it is prescribed */
     int constrained[6];   /* displacement, rotation */
     double given[6];      /* what is prescribed of them */
+    int by_vector;        /* is a part of its rotation's vector given? Else rotation is about the axes that are free */
     double middle[3];     /* the mean of its nodes, */
     double axis[9];       /* the principal axes of their places about it, as rows, the longest first, */
     double extent[3];     /* and their second moments along these */

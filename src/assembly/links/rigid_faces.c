@@ -122,6 +122,67 @@ static void turn_between(const OstRigidMotion *from, const OstRigidMotion *to, d
         vector[i] = share * turn[1 + i];
 }
 
+void ost_rigid_motion_vector(const OstRigidMotion *motion, double vector[3])
+{
+    turn_between(&(OstRigidMotion){.turn = {1.0, 0.0, 0.0, 0.0}}, motion, vector);
+}
+
+void ost_rigid_motion_set_vector(const double vector[3], OstRigidMotion *motion)
+{
+    memcpy(motion->turn, (double[]){1.0, 0.0, 0.0, 0.0}, sizeof motion->turn);
+    ost_rigid_motion_turn_by(vector, motion);
+}
+
+/* T = I + a V + b V², with V x = v × x, a = (1 - cos |v|) / |v|² and b = (|v| - sin |v|) / |v|³, by their series; and
+ * their derivatives by |v|, over |v|. */
+typedef struct Exponential {
+    double a, b, slope_a, slope_b;
+} Exponential;
+
+static Exponential exponential_of(const double vector[3])
+{
+    enum { TERMS = 20 }; /* for |v| up to 2 pi */
+    const double square = ost_dot3(vector, vector);
+    Exponential sum = {0.0, 0.0, 0.0, 0.0};
+    double term = 0.5, slope = 0.0; /* (-|v|²)^k / (2k + 2)!, and its derivative */
+    for (int k = 0; k < TERMS; k++) {
+        const double both = (2 * k + 3) * (2 * k + 4);
+        sum.a += term;
+        sum.b += term / (2 * k + 3);
+        sum.slope_a += slope;
+        sum.slope_b += slope / (2 * k + 3);
+        slope = -2.0 * (k + 1) * term / both;
+        term *= -square / both;
+    }
+    return sum;
+}
+
+void ost_rigid_vector_turning(const double vector[3], double turning[9])
+{
+    const Exponential of = exponential_of(vector);
+    const double *v = vector, square = ost_dot3(v, v);
+    const double across[9] = {0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0};
+    for (int k = 0; k < 9; k++)
+        turning[k] = of.a * across[k] + of.b * v[k / 3] * v[k % 3] + (k % 4 == 0 ? 1.0 - of.b * square : 0.0);
+}
+
+/* T'S T, and of p.T'[p] p, whose moment is m: (v.p) (c.p) + b (m.v) p.p. */
+void ost_rigid_face_turn_vector(const OstRigidFace *face, const double moment[3], double sum[9])
+{
+    double vector[3], turning[9], product[9], across[3], c[3];
+    ost_rigid_motion_vector(&face->now, vector);
+    const Exponential of = exponential_of(vector);
+    const double along = ost_dot3(moment, vector), square = ost_dot3(vector, vector);
+    ost_rigid_vector_turning(vector, turning);
+    ost_multiply3(sum, turning, product);
+    ost_multiply3_transposed_left(turning, product, sum);
+    ost_cross3(moment, vector, across);
+    for (int i = 0; i < 3; i++)
+        c[i] = of.slope_a * across[i] + of.slope_b * (along * vector[i] - square * moment[i]) - of.b * moment[i];
+    for (int k = 0; k < 9; k++)
+        sum[k] += 0.5 * (vector[k / 3] * c[k % 3] + c[k / 3] * vector[k % 3]) + (k % 4 == 0 ? of.b * along : 0.0);
+}
+
 /* The unit quaternion of R = slope + I; a small rotation keeps its digits. */
 static void find_turn(const double slope[9], double turn[4])
 {
@@ -241,6 +302,23 @@ static void turn_vector(const OstRigidMotion *motion, const double x[3], double 
         turned[i] += x[i];
 }
 
+static void set_weight(const OstRigidFace *face, const double arm[3], double weight[9])
+{
+    double vector[3], turning[9], columns[3][3];
+    if (!face->by_vector) {
+        ost_rigid_face_weight(face, arm, weight);
+        return;
+    }
+    ost_rigid_motion_vector(&face->now, vector);
+    ost_rigid_vector_turning(vector, turning);
+    for (int k = 0; k < 3; k++) {
+        const double turn[3] = {turning[k], turning[3 + k], turning[6 + k]};
+        ost_cross3(turn, arm, columns[k]);
+    }
+    for (int n = 0; n < 9; n++)
+        weight[n] = face->constrained[3 + n % 3] ? 0.0 : columns[n % 3][n / 3] / face->length;
+}
+
 OstStatus ost_rigid_faces_turn(OstLinks *links, const double *u)
 {
     OstRigidMotion *motion = NULL;
@@ -257,7 +335,7 @@ OstStatus ost_rigid_faces_turn(OstLinks *links, const double *u)
             continue;
         const OstRigidFace *face = &links->face[link->face];
         ost_rigid_face_arm(links, link, arm);
-        ost_rigid_face_weight(face, arm, link->leader[face->carrier[0] < 0 ? 0 : 1].weight);
+        set_weight(face, arm, link->leader[face->carrier[0] < 0 ? 0 : 1].weight);
     }
     OST_FREE(motion);
     return status;
@@ -290,6 +368,19 @@ static void find_rate(const OstRigidFace *face, const Fit *fit, const OstRigidMo
         shift[i] = fit->mean[i] - moved[i];
 }
 
+/* By the change of v that begins with a rotation. */
+static void move_vector(const double turn[3], OstRigidMotion *motion)
+{
+    double vector[3], turning[9], inverse[9] = {0.0}, change[3];
+    ost_rigid_motion_vector(motion, vector);
+    ost_rigid_vector_turning(vector, turning);
+    ost_invert3(turning, inverse);
+    ost_apply3(inverse, turn, change);
+    for (int i = 0; i < 3; i++)
+        vector[i] += change[i];
+    ost_rigid_motion_set_vector(vector, motion);
+}
+
 OstStatus ost_rigid_faces_move(const OstLinks *links, const double *from, const double *direction, double length,
                                double *to)
 {
@@ -309,12 +400,31 @@ OstStatus ost_rigid_faces_move(const OstLinks *links, const double *from, const 
             motion[f].shift[i] += length * shift[i];
             turn[i] *= length;
         }
-        ost_rigid_motion_turn_by(turn, &motion[f]);
+        if (links->face[f].by_vector)
+            move_vector(turn, &motion[f]);
+        else
+            ost_rigid_motion_turn_by(turn, &motion[f]);
     }
     if (status == OST_SUCCESS)
         ost_rigid_faces_put(links, motion, to);
     OST_FREE(motion, fit);
     return status;
+}
+
+/* The rotation from one motion to another, per length of the curve, where it begins or ends. */
+static void find_change(const OstRigidFace *face, const OstRigidMotion *from, const OstRigidMotion *to, int at_end,
+                        double turn[3])
+{
+    double before[3], vector[3], turning[9], change[3];
+    turn_between(from, to, turn);
+    if (!face->by_vector)
+        return;
+    ost_rigid_motion_vector(from, before);
+    ost_rigid_motion_vector(to, vector);
+    for (int i = 0; i < 3; i++)
+        change[i] = vector[i] - before[i];
+    ost_rigid_vector_turning(at_end ? vector : before, turning);
+    ost_apply3(turning, change, turn);
 }
 
 /* `motion`: where the faces are; and then, where they go. */
@@ -328,7 +438,7 @@ static void put_change(const OstLinks *links, const OstRigidMotion *motion, int 
             continue;
         const int f = link->face;
         face_of(links, link, links->face[f].point, arm);
-        turn_between(&motion[f], &to[f], turn);
+        find_change(&links->face[f], &motion[f], &to[f], at_end, turn);
         turn_vector(at_end ? &to[f] : &motion[f], arm, turned);
         ost_cross3(turn, turned, moved);
         for (int c = 0; c < 3; c++)

@@ -38,6 +38,20 @@ void ost_rigid_face_arm(const OstLinks *links, const OstLink *link, double arm[3
 void ost_rigid_motion_slope(const OstRigidMotion *motion, double slope[9]);
 void ost_rigid_motion_turn_by(const double vector[3], OstRigidMotion *motion);
 
+/* Where a part of the rotation's vector v is given, R = exp(v), the rest of v is what is unknown, and moves straight.
+ * |v| is at most pi. */
+
+/* Local. v of a motion; sets it. */
+void ost_rigid_motion_vector(const OstRigidMotion *motion, double vector[3]);
+void ost_rigid_motion_set_vector(const double vector[3], OstRigidMotion *motion);
+
+/* Local. T, by which R turns where v changes: w = T dv. */
+void ost_rigid_vector_turning(const double vector[3], double turning[9]);
+
+/* Local. Makes of what forces at arms add to the stiffness (ost_add_turning), and of their moment, the second
+ * derivative by v. */
+void ost_rigid_face_turn_vector(const OstRigidFace *face, const double moment[3], double sum[9]);
+
 /* Local. Adds forces to the face's owned nodes, whose sum is zero and whose moment is this, as the face is turned. */
 void ost_rigid_face_add_moment(const OstLinks *links, int face, const double moment[3], double *force);
 

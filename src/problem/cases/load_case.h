@@ -7,7 +7,7 @@
 /* Several loadings of one body. */
 
 /* Collective. A number for what the supports of the scene's case hold: their directions and springs, not by how much
- * they move; and for the method, as moved couplings are solved linearly. Where it is the same on every rank, so is the
+ * they move; and for the method, linear or not. Where it is the same on every rank, so is the
  * stiffness, and what is done with it. */
 OstStatus ost_scene_support_hash(const OstScene *scene, uint64_t *hash);
 

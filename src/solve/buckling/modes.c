@@ -94,7 +94,8 @@ static OstStatus find_turning(Search *search)
 {
     OstProblem answer = *search->problem; /* with its pressure, if it has one */
     answer.field = search->result->field;
-    return ost_problem_find_turning(&answer, search->result->t, search->result->displacement, 0, &search->turning);
+    const OstTangent tangent = {.u = search->result->displacement};
+    return ost_problem_find_turning(&answer, search->result->t, &tangent, &search->turning);
 }
 
 /* Adds what forces at the arms of rigid faces do as these turn. */

@@ -198,13 +198,15 @@ void ost_distributing_forget(OstProblem *problem)
     OST_FREE(problem->driven);
 }
 
-OstStatus ost_distributing_react(const OstProblem *problem, OstResult *result)
+OstStatus ost_distributing_react(const OstProblem *problem, double t, OstResult *result)
 {
+    const double factor = ost_problem_factor(problem, 0, t);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++) {
-        result->force[i] -= problem->driven[i];
-        result->reaction[i] += problem->driven[i];
+        const double driven = factor * problem->driven[i];
+        result->force[i] -= driven;
+        result->reaction[i] += driven;
         if (result->passed)
-            result->passed[i] += problem->driven[i];
+            result->passed[i] += driven;
     }
     return ost_halo_import(problem->mesh->halo, 3 * sizeof(double), result->reaction);
 }

@@ -21,7 +21,7 @@ OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const do
 /* Local. Takes the forces of an earlier solve off the load. */
 void ost_distributing_forget(OstProblem *problem);
 
-/* Collective. Counts these forces as reactions of a result, not as its load. */
-OstStatus ost_distributing_react(const OstProblem *problem, OstResult *result);
+/* Collective. Counts these forces as reactions of a result at t, not as its load. */
+OstStatus ost_distributing_react(const OstProblem *problem, double t, OstResult *result);
 
 #endif
