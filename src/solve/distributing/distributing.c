@@ -205,6 +205,8 @@ OstStatus ost_distributing_react(const OstProblem *problem, OstResult *result)
         result->reaction[i] += problem->driven[i];
         if (result->passed)
             result->passed[i] += problem->driven[i];
+        if (result->moved)
+            result->moved[i] = problem->driven[i];
     }
     return ost_halo_import(problem->mesh->halo, 3 * sizeof(double), result->reaction);
 }
