@@ -18,7 +18,8 @@ typedef struct OstChecks {
     double force_error;        /* the same of reactions and stresses: the larger of them, or of the imbalances of force
                                   and moment; NAN if not known */
     double load[3], reaction[3];
-    double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
+    double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node, with the
+                                forces of springs apart */
     double moment_imbalance; /* likewise about the body's centre */
     int linear;              /* is the problem? The next two are only compared if so */
     double strain_energy;    /* if linear, ½ u·K u */

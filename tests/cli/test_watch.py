@@ -205,6 +205,9 @@ def each_support_bears_its_own():
         for key, value in expected.items():
             of = report["watched"][key]
             check(abs(of["value"] - value) < 1e-6 and abs(of["error"]) < 1e-6, f"{name}: {key} is {of}, not {value}")
+    held = FOOT.replace("free", "0")  # a part of a foot that is held bears the same, with springs that cannot move or without
+    parts = [solve(text)[1]["watched"]["tilt"] for text in (held, held.replace(FOOT[FOOT.index("springs"):FOOT.index("loads")], ""))]
+    check(abs(parts[0]["value"]) > 0.1 and abs(parts[0]["value"] - parts[1]["value"]) < 1e-9, f"a part of a held foot: {parts}")
 
 
 def an_energy_is_not_stated_below_zero():
