@@ -450,6 +450,13 @@ const OstMesh *ost_scene_mesh(const OstScene *scene)
     return scene->mesh;
 }
 
+OstFormulation ost_scene_formulation(const OstScene *scene)
+{
+    const int is_on = scene->c->large_rotation == OST_LARGE_ROTATION_ON;
+    return is_on && ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION) ? scene->c->formulation
+                                                                                   : OST_FORMULATION_LINEAR;
+}
+
 const OstMaterialField *ost_scene_field(const OstScene *scene)
 {
     return scene->field;
