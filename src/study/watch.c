@@ -232,7 +232,9 @@ static const char *find_why(const OstScene *scene, const OstResult *result, cons
     if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE)) /* not asked for, or no room for it */
         return ost_plan_writes(scene->c, OST_FIELD_ERROR) ? "the error of the answer is not estimated" : NULL;
     if (!result->answer.known)
-        return "that of the answer is not";
+        return result->answer.is_indefinite
+                   ? "the stiffness that the estimate takes at the answer is not positive definite"
+                   : "that of the answer is not";
     if (is_moved_by_coupling(scene) && watch->kind != OST_WATCH_STRAIN_ENERGY)
         return force_is_unknown;
     switch (watch->kind) {

@@ -232,6 +232,18 @@ def pressure_follows_no_surface_by_linear_theory():
     check(near(report["watched"]["held"]["value"], report["checks"]["reaction"][0]), f"two reactions: {report}")
 
 
+def no_error_without_a_definite_stiffness():
+    _, report, _ = solve("""mesh: {tube: {axis: x, length: 3, radii: [0.7, 1], divisions: {around: 8, radial: 1, axial: 4}}}
+large_rotation: on
+materials: [{region: all, youngs_modulus: [100, 30, 60], poissons_ratio: 0.3}]
+constraints: [{on: {boundary: bottom}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: inner}, pressure: 6, follows: true}]
+watch: {energy: strain_energy}
+""")
+    check(report["answer_error"] is None and "not positive definite" in report["watched"]["energy"]["error_not_known"] and
+          any("set element: {order: 2}" in one for one in report["warnings"] if "not known" in one), f"{report}")
+
+
 def reactions_of_a_nearly_incompressible_body_balance_its_loads():
     """In a mixed form, part of the forces is the pressures'; a moment at the deformed body has other arms."""
     muscle = """mesh: {block: {size: [4, 1, 1], divisions: [4, 1, 1]}}
@@ -429,6 +441,7 @@ def main():
     reactions_balance_the_loads()
     each_support_bears_its_own()
     springs_bear_nothing_where_nodes_are_held()
+    no_error_without_a_definite_stiffness()
     an_energy_is_not_stated_below_zero()
     pressure_follows_no_surface_by_linear_theory()
     reactions_of_a_nearly_incompressible_body_balance_its_loads()
