@@ -273,8 +273,10 @@ loads: [{on: {boundary: xmax}, total_force: [0, 0, -2]}]
 watch:
   nearer: {displacement: {nearest: [10, 0, 0.1]}, component: x}
   lower: {displacement: {nearest: [10, 0, 0.1]}, component: z}
+  free: {reaction: {boundary: zmax}, component: x}
 """
     finished, report, _ = solve(strip)
+    check("'free' is" not in finished.errors and report["watched"]["free"]["value"] == 0, finished.errors)
     check("'nearer' is" in finished.errors and "large_rotation: on" in finished.errors, finished.errors)
     check("'lower' is" not in finished.errors and any("'nearer' is" in w for w in report["warnings"]), report["warnings"])
     finished, report, _ = solve(strip + "large_rotation: on\n")
