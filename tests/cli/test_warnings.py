@@ -200,6 +200,10 @@ def arbitrary_points(folder):
             ended = run(command, "fibre.yaml", folder=folder)
             check(ended.exit_code == 0 and ("arbitrary numbers: s (11);" in ended.errors) == warned ==
                   ("arbitrary" in ended.errors), f"{command} {height} {component}: {ended.errors}")
+            check("on the border" not in ended.errors, f"{ended.errors}")
+    write(folder, "fibre.yaml", FIBRE.replace("HEIGHT", "0").replace("COMPONENT", "33"))
+    ended = run("check", "fibre.yaml", folder=folder)
+    check("border of the regions 'above' and 'below', where stresses may jump: it is that in 'above'" in ended.errors, ended.errors)
 
 
 # Limits of refinement, where nothing is refined.
