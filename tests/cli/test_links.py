@@ -602,6 +602,8 @@ def what_cannot_be_is_refused():
     write(folder, "ends.inp", ENDS)
     held = "{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}"
     tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
+    rigid = tied.replace("boundary: a_ymin", "nearest: [0, 0, 0]").replace("boundary: a_zmin", "nearest: [0, 0, 0]")
+    rigid = rigid.replace("a_xmax}}", "a_xmax}, tolerance: 0.2}\n  - {on: {boundary: a_xmax}, rigid: [2, 0.5, 0.5]}")
     for text, words in (
             (cell.replace(f", {held}", ""), "can move"),
             (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
@@ -611,6 +613,7 @@ def what_cannot_be_is_refused():
             (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
             (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
+            (rigid, "let one rigid face have both"),
             (tied.replace("b_xmin}, tied", "b_xmax}, tied"), "tolerance:"),
             (tied.replace("b_xmin}, tied", "a_xmax}, tied"), "this tie joins nothing"),
             (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
