@@ -18,7 +18,8 @@ typedef struct OstChecks {
     double force_error;        /* the same of reactions and stresses: the larger of them, or of the imbalances of force
                                   and moment; NAN if not known */
     double load[3], reaction[3];
-    double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node */
+    double force_imbalance;  /* |sum of loads + reactions| over the sum of |load + reaction| of each node, with the
+                                forces of springs apart */
     double moment_imbalance; /* likewise about the body's centre */
     int linear;              /* is the problem? The next two are only compared if so */
     double strain_energy;    /* if linear, ½ u·K u */
@@ -74,6 +75,8 @@ typedef struct OstAnswerError {
     double by_loads;           /* how much of the work that strains the body loads do, 0 to 1; the rest is that of
                                   supports that are moved */
     int known;                 /* 0: no estimate was asked for, or none could be made; all numbers are then 0 */
+    int is_indefinite;         /* 1: none could be made, as the stiffness that it takes is not positive
+                                  definite */
     int region;                /* of the mesh, the one with the largest share of the squared error; and that share */
     double region_share;
     double place[3];  /* centroid of the tet with the largest share */

@@ -29,6 +29,10 @@ const OstMaterialField *ost_scene_field(const OstScene *scene);
  */
 OstStatus ost_scene_problem(const OstScene *scene, OstProblem **problem);
 
+/* Local. That of the case's answer; LINEAR where `large_rotation: auto` decides in the solve. The scene's problem is of
+ * linear theory until it is solved, or told (ost_problem_set_formulation). */
+OstFormulation ost_scene_formulation(const OstScene *scene);
+
 /* Collective. ost_problem_dry_run and ost_problem_solve of the scene's problem, with the solver's options and the
  * fields that the case asks for; where the case has a path (orthostat/path.h), the result is that at its end. The scene
  * outlives the result. */

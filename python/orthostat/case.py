@@ -162,9 +162,12 @@ class Scene:
         return take_result(self.context, lib.ost_scene_solve(self.pointer, box), box, self.mesh, self)
 
     def problem(self):
-        """Collective. Supports and loads of the case as a problem, for loads of your own, energies, forces, stiffness."""
+        """Collective. Supports and loads of the case as a problem, for loads of your own, energies, forces, stiffness:
+        with large_rotation "on" those of large rotations, with "auto" those of linear theory until it is solved."""
         box = self.context.box("OstProblem")
         self.context.check(lib.ost_scene_problem(self.pointer, box))
+        if lib.ost_scene_formulation(self.pointer) != lib.OST_FORMULATION_LINEAR:
+            lib.ost_problem_set_formulation(box[0], lib.ost_scene_formulation(self.pointer))
         return Problem.borrowed(box[0], self.mesh, lib.ost_scene_field(self.pointer), self)
 
     def analysis(self):

@@ -482,6 +482,7 @@ OstStatus ost_estimate_find(OstEstimate *estimate, OstSolver *solver, double t, 
         const int is_mixed = surplus->displacement && estimate->problem->pressures;
         OST_THEN(is_mixed ? hand_out_mixed(&search, t, u, surplus) : hand_out_all(&search, estimate->problem, surplus));
     }
+    found->is_indefinite = status == OST_SUCCESS && search.steps.failed;
     ost_steps_close(&search.steps);
     return status;
 }

@@ -69,7 +69,7 @@ static OstStatus select_borne(const OstProblem *problem, const OstWatch *watch, 
 {
     const OstCase *c = problem->scene->c;
     OST_TRY(ost_select_nodes(c, problem->mesh, &watch->on, &borne->count, &borne->nodes));
-    return ost_select_shares(c, problem->mesh, &watch->on, borne->count, borne->nodes, &borne->shares);
+    return ost_select_shares(c, problem->mesh, watch, borne->count, borne->nodes, &borne->shares);
 }
 
 /* The forces on owned nodes, 3 × owned_nodes each. */
@@ -195,7 +195,7 @@ static OstStatus find_motion(const OstProblem *problem, const OstWatch *watch, c
         double *moved = interest->moved + 3 * (size_t)node;
         if (node >= problem->mesh->owned_nodes)
             continue;
-        is_unknown |= borne->shares[k].is_unknown;
+        is_unknown |= borne->shares[k].unknown != OST_BEARING_KNOWN;
         move_along(problem, watch, u, interest->direction, node, moved);
         const double given[3] = {moved[0], moved[1], moved[2]};
         if (!links || (!links->leads[node] && links->of_node[node] < 0))

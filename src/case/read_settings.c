@@ -94,7 +94,8 @@ static OstStatus read_interest(const OstYaml *yaml, const OstYamlNode *node, Ost
             "'%.80s' is not watched%s; name a quantity of the section 'watch', or energy for the norm of the energy",
             name,
             ost_yaml_has(yaml, yaml->node, "cases")
-                ? " in all load cases: what 'cases' adds to one alone does not count"
+                ? " in all load cases: what 'cases' adds to one alone does not count, also where --case takes that "
+                  "one"
                 : "");
     if (ost_watch_is_of_stress(&c->watches[c->interest - 1]))
         return ost_yaml_raise(yaml, node,

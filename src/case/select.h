@@ -8,20 +8,29 @@
  * ost_select_nodes does, except that a selection may be empty. */
 OstStatus ost_select_flags(const OstCase *c, const OstMesh *mesh, const OstSelection *selection, unsigned char **flags);
 
+/* Why what links pass on to a node may not be the selection's. */
+typedef enum {
+    OST_BEARING_KNOWN,
+    OST_BEARING_OF_LINKS, /* two of them meet there */
+    OST_BEARING_OF_TIE    /* a tie does, and supports hold a part of its face */
+} OstBearingDoubt;
+
 /* What a selection bears at one of its nodes, the rest being other supports'. */
 typedef struct OstBearing {
     double own[9];      /* times the force of constraints and springs there: its part */
     double in_doubt[9]; /* times it: the part that may as well be more or less */
-    int is_passed;      /* does it have what links and moved couplings pass on there? */
-    int is_unknown;     /* do two of them meet there, so that what it has of that is not known? */
+    int is_passed;      /* does it have what links pass on there? */
+    int is_moved;       /* and the force of moved couplings? */
+    OstBearingDoubt unknown;
 } OstBearing;
 
-/* Collective. Of a selection's nodes, as ost_select_nodes has them: `shares`, memory from the context, which counts for
- * owned ones. At an edge of its faces, others of the surface may be held or lie on springs. Each bears what acts along
- * directions that its own constraint holds, half of it where both hold them; springs bear by their stiffness, and
- * nothing where a constraint does. Of a part of a rigid, tied, periodic or coupled face on which springs act the
- * selection has the springs' force alone. */
-OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstSelection *on, OstLocal count,
+/* Collective. Of a watched reaction's nodes, as ost_select_nodes has them: `shares`, memory from the context, which
+ * counts for owned ones. At an edge of its faces, others of the surface may be held or lie on springs. Each bears what
+ * acts along directions that its own constraint holds, half of it where both hold them; springs bear by their
+ * stiffness, and nothing where a constraint does. Of a tied or periodic face that supports hold along what is watched,
+ * the selection has their force, not what the link passes on. Of a part of a rigid, tied, periodic or coupled face on
+ * which springs act it has the springs' force alone, but of a rigid face that is held. */
+OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstWatch *watch, OstLocal count,
                             const OstLocal *nodes, OstBearing **shares);
 
 /* Local. Is a boundary in the selection? Do all boundaries of the selection exist? */

@@ -172,11 +172,16 @@ enum { OF_SELECTION = 1, OF_SUPPORT = 2 }; /* bits of faces */
 enum {
     SELECTED = 1,
     HAS_SPRING = 2,
-    HAS_OWN = 4,       /* a face of the support that is looked at, which is selected */
-    HAS_OTHERS = 8,    /* one that is not */
-    LINKS_OWN = 16,    /* a link, or moved coupling, has selected faces there */
-    LINKS_OTHERS = 32, /* one has others there alone */
-    BEARS_SPRINGS = 64 /* a part of a link's nodes is selected, where springs act: these are asked for */
+    HAS_OWN = 4,       /* the support that is looked at has a selected face there, or is there where none is selected */
+    HAS_OTHERS = 8,    /* it has one that is not */
+    LINKS_OWN = 16,    /* a link has selected faces there, and what it passes on is asked for */
+    LINKS_OTHERS = 32, /* one has others there alone, or is not asked for */
+    BEARS_SPRINGS = 64, /* a part of a link's nodes is selected, where springs act: these are asked for */
+    BEARS = 128,        /* supports of the selection act there: constraints, springs, moved couplings */
+    BEARS_ALONG = 256,  /* along what is watched */
+    MOVES_OWN = 512,    /* as of links, of moved couplings */
+    MOVES_OTHERS = 1024,
+    IS_MIXED = 2048 /* a tie passes a force on to a face that supports hold in part */
 };
 
 /* What holds a node of a selected face: by selected faces, and by others. */
@@ -188,10 +193,11 @@ typedef struct Bearers {
 
 typedef struct Sharing {
     const OstCase *c;
-    Faces faces;          /* with bits */
-    unsigned char *nodes; /* bits */
-    unsigned char *in;    /* is a node of the support that is looked at? */
-    OstLocal *place;      /* of a node in `bearers`, or -1 */
+    Faces faces;           /* with bits */
+    int axis;              /* of the component that is watched; -1: a length, or a moment */
+    unsigned short *nodes; /* bits */
+    unsigned char *in;     /* is a node of the support that is looked at? */
+    OstLocal *place;       /* of a node in `bearers`, or -1 */
     Bearers *bearers;
 } Sharing;
 
@@ -232,6 +238,8 @@ static OstStatus mark_faces(Sharing *of, const OstSelection *on, unsigned char b
     return OST_SUCCESS;
 }
 
+static const double nothing = 1e-9; /* as a share */
+
 /* Its nodes, its faces, and what these are at their nodes. */
 static OstStatus look_at_support(Sharing *of, const OstSelection *on)
 {
@@ -246,13 +254,23 @@ static OstStatus look_at_support(Sharing *of, const OstSelection *on)
         for (int k = 0; k < surface->nodes_per_face && of->faces.selected[f] & OF_SUPPORT; k++)
             of->nodes[node[k]] |= of->faces.selected[f] & OF_SELECTION ? HAS_OWN : HAS_OTHERS;
     }
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
+        of->nodes[n] |= of->in[n] && of->place[n] < 0 ? HAS_OWN : 0;
     return OST_SUCCESS;
 }
 
 static void forget_support(Sharing *of)
 {
     for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
-        of->nodes[n] &= (unsigned char)~(HAS_OWN | HAS_OTHERS);
+        of->nodes[n] &= (unsigned short)~(HAS_OWN | HAS_OTHERS);
+}
+
+/* A support that acts along the directions of a block is the selection's at a node. */
+static void note_own(Sharing *of, OstLocal node, const double block[9])
+{
+    const double size = block[0] + block[4] + block[8];
+    const double along = of->axis < 0 ? size : block[4 * of->axis];
+    of->nodes[node] |= (unsigned short)((size > 0.0 ? BEARS : 0) | (along > nothing * size ? BEARS_ALONG : 0));
 }
 
 /* A constraint bears what acts along the directions that it holds itself, not what others hold at its nodes. */
@@ -269,6 +287,8 @@ static OstStatus look_at_constraint(Sharing *of, const OstConstraint *constraint
     OST_TRY(look_at_support(of, &constraint->on));
     for (OstLocal n = 0; n < of->faces.mesh->node_count; n++) {
         Bearers *bearers = of->place[n] < 0 ? NULL : &of->bearers[of->place[n]];
+        if (of->in[n] && (of->nodes[n] & HAS_OWN || !(of->nodes[n] & HAS_OTHERS)))
+            note_own(of, n, held);
         if (!bearers || !of->in[n])
             continue;
         add_matrix(1.0, held, bearers->all);
@@ -296,6 +316,9 @@ static void take_foundation(Sharing *of, const OstSpring *spring)
         for (int i = 0; i < 3; i++)
             normal[i] = ost_norm3(spring->direction) > 0.0 ? spring->direction[i] : normal[i] / size;
         find_block(spring->along, spring->across, normal, block);
+        for (int k = 0; k < surface->nodes_per_face; k++)
+            if (of->place[node[k]] < 0 || of->faces.selected[f] & OF_SELECTION)
+                note_own(of, node[k], block);
         for (int k = surface->nodes_per_face - 3; k < surface->nodes_per_face; k++) {
             const OstLocal place = of->place[node[k]];
             of->nodes[node[k]] |= HAS_SPRING;
@@ -315,6 +338,8 @@ static void take_springs(Sharing *of, const OstSpring *spring)
             continue;
         of->nodes[n] |= HAS_SPRING;
         const double others = !(of->nodes[n] & HAS_OTHERS) ? 0.0 : of->nodes[n] & HAS_OWN ? 0.5 : 1.0;
+        if (others < 1.0)
+            note_own(of, n, block);
         if (of->place[n] < 0)
             continue;
         add_matrix(6.0 * (1.0 - others), block, of->bearers[of->place[n]].springs[0]);
@@ -333,78 +358,118 @@ static OstStatus look_at_springs(Sharing *of, const OstSpring *spring)
     return OST_SUCCESS;
 }
 
-/* Where springs act on a part of a linked side that is selected, these are asked for, not what the link passes on. */
-static OstStatus look_at_side(Sharing *of, const OstSelection *on)
+/* What is true of any of a link's nodes: left out of the selection; selected; so, without a support of the selection's;
+ * with one along what is watched; with springs. */
+enum { LEFT_OUT, CHOSEN, BARE, ALONG, SPRINGS, FACTS };
+
+/* `fact`: of one side. Where springs act on a part of it that is selected, these are asked for, not what the link
+ * passes on, unless `is_held`. */
+static OstStatus look_at_side(Sharing *of, const OstSelection *on, int is_held, int fact[FACTS])
 {
     const OstMesh *mesh = of->faces.mesh;
-    int some[2] = {0}; /* are nodes left out? Are springs at the others? */
+    memset(fact, 0, FACTS * sizeof *fact);
     OST_TRY(look_at_support(of, on));
     for (OstLocal n = 0; n < mesh->owned_nodes; n++) {
-        some[0] |= of->in[n] && !(of->nodes[n] & SELECTED);
-        some[1] |= of->in[n] && of->nodes[n] & SELECTED && of->nodes[n] & HAS_SPRING;
+        const unsigned bits = of->in[n] ? of->nodes[n] : 0;
+        const int is_own = bits & SELECTED && bits & HAS_OWN;
+        fact[LEFT_OUT] |= of->in[n] && !(bits & SELECTED);
+        fact[CHOSEN] |= is_own;
+        fact[BARE] |= is_own && !(bits & BEARS);
+        fact[ALONG] |= is_own && bits & BEARS_ALONG;
+        fact[SPRINGS] |= bits & SELECTED && bits & HAS_SPRING;
     }
-    OST_TRY(ost_max_ints(mesh->ctx, 2, some));
-    for (OstLocal n = 0; n < mesh->owned_nodes && some[0] && some[1]; n++)
+    OST_TRY(ost_max_ints(mesh->ctx, FACTS, fact));
+    for (OstLocal n = 0; n < mesh->owned_nodes && fact[LEFT_OUT] && fact[SPRINGS] && !is_held; n++)
         of->nodes[n] |= of->in[n] ? BEARS_SPRINGS : 0;
     return OST_SUCCESS;
 }
 
-/* What meets a rigid face at its edge bears nothing there. */
-static void take_link(Sharing *of, int is_rigid)
+static void take_link(Sharing *of, int own, int others)
 {
-    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++) {
-        if (of->nodes[n] & HAS_OWN)
-            of->nodes[n] |= LINKS_OWN;
-        else if (of->nodes[n] & HAS_OTHERS && !is_rigid)
-            of->nodes[n] |= LINKS_OTHERS;
-    }
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
+        of->nodes[n] |= (unsigned short)(of->nodes[n] & HAS_OWN ? own : of->nodes[n] & HAS_OTHERS ? others : 0);
     forget_support(of);
 }
 
-/* The faces of a constraint that links. */
-static OstStatus look_at_link(Sharing *of, const OstConstraint *constraint)
+/* What meets a rigid face at its edge bears nothing there. One that is held is a support, in every part. */
+static OstStatus look_at_rigid(Sharing *of, const OstConstraint *constraint)
 {
-    OstStatus status = OST_SUCCESS;
-    if (constraint->kind != OST_CONSTRAIN_PERIODIC)
-        status = look_at_side(of, &constraint->on);
-    if (constraint->kind == OST_CONSTRAIN_TIED)
-        OST_THEN(look_at_side(of, &constraint->to));
-    for (int p = 0; constraint->kind == OST_CONSTRAIN_PERIODIC && p < 2 * constraint->pair_count; p++) {
-        const OstSelection side = {.kind = OST_SELECT_BOUNDARY,
-                                   .boundaries = {1, (char **)&constraint->pair[p / 2][p % 2]}};
-        OST_THEN(look_at_side(of, &side));
-    }
-    take_link(of, constraint->kind == OST_CONSTRAIN_RIGID);
-    return status;
+    int is_held = 1, fact[FACTS];
+    for (int i = 0; i < 3; i++)
+        is_held &= constraint->constrained[i] && constraint->turn_constrained[i];
+    OST_TRY(look_at_side(of, &constraint->on, is_held, fact));
+    take_link(of, LINKS_OWN, 0);
+    return OST_SUCCESS;
 }
 
-/* Springs first, which links ask for. */
+/* Ties and periodic pairs. Of a side that supports hold everywhere, their force is asked for, not what the link passes
+ * on, which of both sides together is none. Who holds a part of a tie's side may bear little, as a pin, or all. */
+static OstStatus look_at_link(Sharing *of, const OstConstraint *constraint)
+{
+    const int is_tie = constraint->kind == OST_CONSTRAIN_TIED, count = is_tie ? 2 : 2 * constraint->pair_count;
+    int chosen = 0, left_out = 0, held = 0, some = 0;
+    for (int k = 0; k < count; k++) {
+        int fact[FACTS];
+        const OstSelection pair = {
+            .kind = OST_SELECT_BOUNDARY,
+            .boundaries = {1, is_tie ? NULL : (char **)&constraint->pair[k / 2][k % 2]},
+        };
+        OST_TRY(look_at_side(of, !is_tie ? &pair : k == 0 ? &constraint->on : &constraint->to, 0, fact));
+        chosen += fact[CHOSEN];
+        left_out |= fact[CHOSEN] && fact[LEFT_OUT];
+        held |= fact[ALONG] && !fact[BARE];
+        some |= fact[ALONG];
+    }
+    const int is_within = is_tie && chosen == 2 && !left_out;
+    const int is_mixed = is_tie && some && !is_within;
+    take_link(of, held && !is_within ? LINKS_OTHERS : LINKS_OWN | (is_mixed ? IS_MIXED : 0), LINKS_OTHERS);
+    return OST_SUCCESS;
+}
+
+static OstStatus look_at_coupling(Sharing *of, const OstLoad *load)
+{
+    double moved[9] = {0.0};
+    int fact[FACTS];
+    for (int i = 0; i < 3; i++)
+        moved[4 * i] = load->moved[i] || load->moved[3] || load->moved[4] || load->moved[5] ? 1.0 : 0.0;
+    OST_TRY(look_at_side(of, &load->on, 0, fact));
+    for (OstLocal n = 0; n < of->faces.mesh->node_count; n++)
+        if (of->in[n] && of->nodes[n] & HAS_OWN)
+            note_own(of, n, moved);
+    take_link(of, MOVES_OWN, MOVES_OTHERS);
+    return OST_SUCCESS;
+}
+
+/* Springs and couplings first, which links ask for; then constraints. */
 static OstStatus look_at_all(Sharing *of)
 {
     const OstCase *c = of->c;
     OstStatus status = OST_SUCCESS;
     for (int k = 0; k < c->spring_count; k++)
         OST_THEN(look_at_springs(of, &c->springs[k]));
-    for (int k = 0; k < c->constraint_count && status == OST_SUCCESS; k++)
-        status = ost_constraint_links(&c->constraints[k]) ? look_at_link(of, &c->constraints[k])
-                                                          : look_at_constraint(of, &c->constraints[k]);
-    for (int k = 0; k < c->load_count && status == OST_SUCCESS; k++)
-        if (c->loads[k].kind == OST_LOAD_DISTRIBUTING) {
-            status = look_at_side(of, &c->loads[k].on);
-            take_link(of, 0);
-        }
+    for (int k = 0; k < c->load_count; k++)
+        if (c->loads[k].kind == OST_LOAD_DISTRIBUTING)
+            OST_THEN(look_at_coupling(of, &c->loads[k]));
+    for (int k = 0; k < c->constraint_count; k++)
+        if (!ost_constraint_links(&c->constraints[k]))
+            OST_THEN(look_at_constraint(of, &c->constraints[k]));
+    for (int k = 0; k < c->constraint_count; k++)
+        if (c->constraints[k].kind == OST_CONSTRAIN_RIGID)
+            OST_THEN(look_at_rigid(of, &c->constraints[k]));
+        else if (ost_constraint_links(&c->constraints[k]))
+            OST_THEN(look_at_link(of, &c->constraints[k]));
     return status;
 }
 
 /* The projector on what a sum of projectors reaches. */
 static OstStatus find_range(OstContext *ctx, const double sum[9], double range[9])
 {
-    static const double nothing = 1e-6;
+    static const double least = 1e-6;
     double values[3], vectors[9];
     OST_TRY(ost_symmetric_eigen(ctx, 3, sum, values, vectors));
     memset(range, 0, 9 * sizeof *range);
     for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 9 && values[k] > nothing * values[2]; i++)
+        for (int i = 0; i < 9 && values[k] > least * values[2]; i++)
             range[i] += vectors[3 * k + i / 3] * vectors[3 * k + i % 3];
     return OST_SUCCESS;
 }
@@ -412,7 +477,6 @@ static OstStatus find_range(OstContext *ctx, const double sum[9], double range[9
 /* Of f = a + b, a = own x and b = others x, the share a = (own (own + others)^-1) f; and all that is neither's. */
 static OstStatus find_split(OstContext *ctx, const double own[9], const double others[9], double share[9])
 {
-    static const double nothing = 1e-9;
     double sum[9] = {0.0}, inverse[9] = {0.0}, rest[9] = {0.0}, values[3], vectors[9];
     add_matrix(1.0, own, sum);
     add_matrix(1.0, others, sum);
@@ -475,8 +539,12 @@ static OstStatus take_shares(const Sharing *of, OstLocal count, const OstLocal *
         const unsigned bits = of->nodes[nodes[k]];
         const OstLocal place = of->place[nodes[k]];
         shares[k] = whole;
-        shares[k].is_passed = !(bits & BEARS_SPRINGS) && (place < 0 || bits & LINKS_OWN);
-        shares[k].is_unknown = shares[k].is_passed && place >= 0 && bits & LINKS_OTHERS;
+        shares[k].is_passed = !(bits & BEARS_SPRINGS) && bits & LINKS_OWN;
+        shares[k].is_moved = !(bits & BEARS_SPRINGS) && bits & MOVES_OWN;
+        if ((shares[k].is_passed && bits & LINKS_OTHERS) || (shares[k].is_moved && bits & MOVES_OTHERS))
+            shares[k].unknown = OST_BEARING_OF_LINKS;
+        else if (shares[k].is_passed && bits & IS_MIXED)
+            shares[k].unknown = OST_BEARING_OF_TIE;
         if (place >= 0 && any_others(&of->bearers[place]))
             OST_TRY(find_share(of->faces.mesh->ctx, &of->bearers[place], &shares[k]));
     }
@@ -502,10 +570,11 @@ static OstStatus look_at_selection(Sharing *of, const OstSelection *on, OstLocal
     return ost_agree(ctx, OST_NEW(ctx, &of->bearers, places));
 }
 
-OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstSelection *on, OstLocal count,
+OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstWatch *watch, OstLocal count,
                             const OstLocal *nodes, OstBearing **shares)
 {
-    Sharing of = {.c = c, .faces = {.mesh = mesh}};
+    const int is_component = !watch->of_moment && watch->component != OST_WATCH_LENGTH;
+    Sharing of = {.c = c, .faces = {.mesh = mesh}, .axis = is_component ? watch->component : -1};
     OST_TRY(ost_mesh_surface(mesh, &of.faces.surface));
     OstStatus status = OST_NEW(mesh->ctx, shares, count);
     OST_THEN(OST_NEW(mesh->ctx, &of.faces.selected, of.faces.surface->count));
@@ -513,7 +582,7 @@ OstStatus ost_select_shares(const OstCase *c, const OstMesh *mesh, const OstSele
     OST_THEN(OST_NEW(mesh->ctx, &of.place, mesh->node_count));
     OST_THEN(fill_index(&of.faces));
     status = ost_agree(mesh->ctx, status);
-    OST_THEN(look_at_selection(&of, on, count, nodes));
+    OST_THEN(look_at_selection(&of, &watch->on, count, nodes));
     OST_THEN(look_at_all(&of));
     OST_THEN(ost_agree(mesh->ctx, take_shares(&of, count, nodes, *shares)));
     ost_index_destroy(&of.faces.index);

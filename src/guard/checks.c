@@ -41,7 +41,8 @@ enum {
     SUM_ROUNDING, /* squares of the residual that rounding explains */
     SUM_LOAD,     /* 3 */
     SUM_REACTION = SUM_LOAD + 3,
-    SUM_FORCE_SIZE = SUM_REACTION + 3, /* of |f + r|: a load on a constrained component strains nothing */
+    SUM_FORCE_SIZE = SUM_REACTION + 3, /* of |f + r - s| + |s|, s of springs: a load on a constrained component strains
+                                          nothing, one on a spring moves the body */
     SUM_FORCE_TERMS,                   /* of |f| + |r|, which sets the rounding error of f + r */
     SUM_MOMENT,                        /* 3 */
     SUM_MOMENT_SIZE = SUM_MOMENT + 3,
@@ -50,7 +51,7 @@ enum {
     SUM_SQUARE,      /* of u */
     SUM_DEFORMATION, /* squares of u less the mean displacement */
     SUM_DOUBLE_WORK, /* (f + r)·u, less the integral of stress on the eigenstrain */
-    SUM_WORK_SIZE,   /* of |(f + r)·u|, by component, and of that integral */
+    SUM_WORK_SIZE,   /* of |(f + r - s)·u| and |s·u|, by component, and of that integral */
     SUM_WORK_TERMS,  /* of |f·u| + |r·u| likewise */
     SUM_FREE_LOAD,   /* squares of P f, the load on unconstrained components */
     SUM_NOT_FINITE,
@@ -146,9 +147,12 @@ static void add_node(OstResult *result, const Body *body, const Takers *by, OstL
     const double *u = result->displacement + 3 * (size_t)node;
     double *r = result->reaction + 3 * (size_t)node;
     double out_of_balance[3], taken[3], constrained[3], external[3], loaded[3], whole[3], arm[3], moment[3];
-    double left[3];
-    for (int i = 0; i < 3; i++)
+    double left[3], spring[3];
+    project_on_constrained(body->supports, node, r, constrained);
+    for (int i = 0; i < 3; i++) {
+        spring[i] = r[i] - constrained[i]; /* the rest is the support's */
         out_of_balance[i] = internal[i] - f[i] - r[i];
+    }
     take_force(body->supports, by, node, out_of_balance, taken, left);
     for (int i = 0; i < 3; i++) {
         r[i] += taken[i];
@@ -159,14 +163,14 @@ static void add_node(OstResult *result, const Body *body, const Takers *by, OstL
     for (int i = 0; i < 3; i++) {
         const double residual = left[i];
         const double deformation = u[i] - body->mean[i];
-        whole[i] = loaded[i] + r[i];
+        whole[i] = loaded[i] + r[i] - spring[i];
         arm[i] = result->mesh->coordinates[3 * (size_t)node + (size_t)i] + (body->turns ? u[i] : 0.0) - body->centre[i];
         sums[SUM_RESIDUAL] += residual * residual;
         sums[SUM_ROUNDING] += magnitude[i] * magnitude[i];
         sums[SUM_LOAD + i] += f[i];
         sums[SUM_REACTION + i] += r[i];
         sums[SUM_DOUBLE_WORK] += external[i] * u[i];
-        sums[SUM_WORK_SIZE] += fabs(whole[i] * u[i]);
+        sums[SUM_WORK_SIZE] += fabs(whole[i] * u[i]) + fabs(spring[i] * u[i]);
         sums[SUM_WORK_TERMS] += (fabs(loaded[i]) + fabs(r[i])) * fabs(u[i]);
         sums[SUM_SQUARE] += u[i] * u[i];
         sums[SUM_DEFORMATION] += deformation * deformation;
@@ -176,9 +180,10 @@ static void add_node(OstResult *result, const Body *body, const Takers *by, OstL
     ost_cross3(arm, external, moment);
     for (int i = 0; i < 3; i++)
         sums[SUM_MOMENT + i] += moment[i];
-    sums[SUM_FORCE_SIZE] += ost_norm3(whole);
+    const double size = ost_norm3(whole) + ost_norm3(spring);
+    sums[SUM_FORCE_SIZE] += size;
     sums[SUM_FORCE_TERMS] += ost_norm3(loaded) + ost_norm3(r);
-    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * ost_norm3(whole);
+    sums[SUM_MOMENT_SIZE] += ost_norm3(arm) * size;
     sums[SUM_MOMENT_TERMS] += ost_norm3(arm) * (ost_norm3(loaded) + ost_norm3(r));
 }
 

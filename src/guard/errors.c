@@ -9,7 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Reactions may balance each other or be none: their error is over no less than this share of the loads. */
+/* Reactions may balance each other or be none: their error is over no less than this share of the loads. So may
+ * stresses where springs take the loads at once: theirs is over no less than that of stresses whose forces are so
+ * large. */
 static const double least_reaction = 1e-3;
 
 /* Where an eigenstrain acts, stress or displacement may be none: their errors are over no less than this share of the
@@ -24,6 +26,7 @@ enum {
     REACTION_ERROR,
     STRESS,
     STRESS_ERROR,
+    FORCE_ERROR, /* of the tets, without springs */
     EIGENSTRESS,
     EIGENSTRAIN,
     LOAD,
@@ -74,6 +77,7 @@ static void add_node(const OstProblem *problem, OstLocal node, const double *int
     ost_apply3(projector, force, free_force);
     ost_apply3(projector, of_error, free_error);
     for (int i = 0; i < 3; i++) {
+        sums[FORCE_ERROR] += (of_error[i] - off[i]) * (of_error[i] - off[i]);
         reaction[i] = (constrained > 0 ? force[i] - free_force[i] : 0.0) - reaction[i];
         off[i] = (constrained > 0 ? of_error[i] - free_error[i] : 0.0) - off[i];
     }
@@ -144,10 +148,13 @@ static void take_relative(const OstProblem *problem, const double *sums, double 
     const double least = least_of_eigenstrain * least_of_eigenstrain;
     const double reaction = fmax(sums[REACTION], least_reaction * least_reaction * sums[LOAD]);
     const double moved = fmax(sums[DISPLACEMENT], least * swollen);
+    double stress = relative(sums[STRESS_ERROR], fmax(sums[STRESS], least * sums[EIGENSTRESS]));
+    if (problem->supports->spring && sums[LOAD] > 0.0)
+        stress = fmin(stress, relative(sums[FORCE_ERROR], least_reaction * least_reaction * sums[LOAD]));
     *errors = (OstErrors){.known = 1,
                           .displacement = relative(sums[DISPLACEMENT_ERROR], moved),
                           .reaction = problem->free_body ? 0.0 : relative(sums[REACTION_ERROR], reaction),
-                          .stress = relative(sums[STRESS_ERROR], fmax(sums[STRESS], least * sums[EIGENSTRESS]))};
+                          .stress = stress};
 }
 
 /* Stresses of all own tets: of the answer, then of it with its error added. */

@@ -45,7 +45,7 @@ typedef struct OstErrors {
     int known;
     double displacement; /* over all nodes */
     double reaction;     /* of constrained nodes; over a thousandth of the loads, if that is more: loads may balance */
-    double stress;       /* means of the tets, six components */
+    double stress;       /* means of the tets, six components; with springs likewise */
     int corrected;       /* was the answer corrected until they were these? Then the residual says nothing beside them:
                             in stiff directions it is what the rounding of the displacement makes of it */
     int asked;           /* is the residual asked for their reason, not rounding? */

@@ -277,6 +277,17 @@ static int warn_of_coarse_mesh(const OstResult *result, char text[OST_LONGEST_WA
     return 1;
 }
 
+static int warn_of_no_error(const OstResult *result, char text[OST_LONGEST_WARNING])
+{
+    if (result->answer.known || !result->answer.is_indefinite)
+        return 0;
+    snprintf(text, OST_LONGEST_WARNING,
+             "the error of the answer is not known: the stiffness that its estimate takes there is not positive "
+             "definite%s",
+             result->mesh->nodes_per_tet == 4 ? "; that of quadratic tets may be: set element: {order: 2}" : "");
+    return 1;
+}
+
 /* A curved surface of plane faces makes an error that no estimate on the same mesh sees. Bending changes by two to four
  * times the share of the volume. */
 static const double small_cut = 0.01;
@@ -314,8 +325,8 @@ static int warn_of_large_residual(const OstResult *result, char text[OST_LONGEST
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING])
 {
     int (*const warn[OST_WARNINGS])(const OstResult *, char *) = {
-        warn_of_linear_theory, warn_of_cut_off,     warn_of_inverted,       warn_of_jump,
-        warn_of_stability,     warn_of_coarse_mesh, warn_of_large_residual, warn_of_buckling};
+        warn_of_linear_theory, warn_of_cut_off,        warn_of_inverted, warn_of_jump,    warn_of_stability,
+        warn_of_coarse_mesh,   warn_of_large_residual, warn_of_buckling, warn_of_no_error};
     text[0] = '\0';
     return warn[number](result, text);
 }

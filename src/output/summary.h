@@ -44,7 +44,7 @@ struct json_t *ost_ledger_json(const OstContext *ctx, double nonzeros, const Ost
 /* Local. Warnings of an answer that passes every check: strains or rotations too large for linear theory, a curved
  * surface of plane faces, which are told once of all steps of a path; tets turned inside out, a jump, a coarse mesh.
  * Returns 0, and leaves the text empty, where the one of this number (below OST_WARNINGS) has no cause. */
-enum { OST_WARNINGS_OF_ALL_STEPS = 2, OST_WARNINGS = 8, OST_LONGEST_WARNING = 400 };
+enum { OST_WARNINGS_OF_ALL_STEPS = 2, OST_WARNINGS = 9, OST_LONGEST_WARNING = 400 };
 int ost_result_warning(const OstResult *result, int number, char text[OST_LONGEST_WARNING]);
 
 /* Local. The first of these, of any answer of linear theory; linear_alone: large rotations cannot be solved for. */

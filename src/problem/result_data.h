@@ -64,6 +64,7 @@ struct OstResult {
     double *reaction;        /* 3 × node_count; zero where nothing is constrained; NULL unless reached */
     double *passed;          /* 3 × owned_nodes: the part of it that links and moved couplings pass on, where a
                                 reaction is watched and there are such; or NULL */
+    double *moved;           /* likewise: of that, the part of moved couplings; or NULL */
     double *strain, *stress; /* 6 × owned_tets: means (11 22 33 12 23 31, strain with 2e), or NULL */
     double *strain_energy_density; /* owned_tets, or NULL */
     double *node_stress;           /* 6 × node_count, or NULL */

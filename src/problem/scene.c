@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
+#include "core/small.h"
 #include "fields/output_field.h"
 #include "formats/serial/formats.h"
 #include "material/directions.h"
@@ -13,6 +14,7 @@
 #include "orthostat/refine.h"
 #include "problem/scene_parts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -238,6 +240,35 @@ static OstStatus treat_nearly_incompressible(OstScene *scene)
     return OST_SUCCESS;
 }
 
+/* The share of the eigenstrain in what a nearly incompressible material hardly changes; 0 of one that swells alike in
+ * all directions, or that is given tet by tet. */
+static double eigenstrain_of_mode(const OstCaseMaterial *stated, const double *mode)
+{
+    const double *e = stated->eigenstrain, trace = e[0] + e[1] + e[2];
+    const int is_swelling = e[0] == e[1] && e[1] == e[2];
+    const double along = fabs(ost_dot3(mode, e)) / fmax(fabs(mode[0]), fmax(fabs(mode[1]), fabs(mode[2])));
+    return is_swelling ? 0.0 : fmin(fabs(trace), along);
+}
+
+/* It follows its eigenstrain, whose trace is then a change of volume that a user may not expect. */
+static void warn_of_changing_volume(const OstScene *scene)
+{
+    static const double little = 0.01;
+    const OstNames *regions = &scene->mesh->regions;
+    for (int r = 0; r < regions->count; r++) {
+        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
+        const double *mode = ost_field_stiff_mode(scene->field, r);
+        if (!stated || !mode || eigenstrain_of_mode(stated, mode) <= little)
+            continue;
+        const double *e = stated->eigenstrain, trace = e[0] + e[1] + e[2];
+        ost_warn(scene->ctx,
+                 "region '%.80s' is nearly incompressible, and its eigenstrain changes the volume: unless something "
+                 "prevents it, by about %.3g %%. One whose parts along e1, e2 and e3 add up to 0 keeps it, as "
+                 "[0.1, 0.1, -0.2]",
+                 regions->name[r], 100.0 * trace);
+    }
+}
+
 static OstStatus make_drive(OstScene *scene)
 {
     const OstCase *c = scene->c;
@@ -333,6 +364,7 @@ static OstStatus fill(OstScene *made, OstMeshChunk **chunk)
     OST_TRY_DONE(check_places(made));
     OST_TRY_DONE(make_field(made, &materials));
     OST_TRY_DONE(ost_agree(ctx, treat_nearly_incompressible(made)));
+    warn_of_changing_volume(made);
 done:
     ost_scene_materials_release(&materials);
     return status;
@@ -416,6 +448,13 @@ void ost_scene_destroy(OstScene **scene)
 const OstMesh *ost_scene_mesh(const OstScene *scene)
 {
     return scene->mesh;
+}
+
+OstFormulation ost_scene_formulation(const OstScene *scene)
+{
+    const int is_on = scene->c->large_rotation == OST_LARGE_ROTATION_ON;
+    return is_on && ost_effect_on(&scene->plan.effects, OST_EFFECT_LARGE_ROTATION) ? scene->c->formulation
+                                                                                   : OST_FORMULATION_LINEAR;
 }
 
 const OstMaterialField *ost_scene_field(const OstScene *scene)

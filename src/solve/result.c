@@ -49,7 +49,7 @@ void ost_result_destroy(OstResult **result)
     OST_FREE((*result)->internal);
     OST_FREE((*result)->force);
     OST_FREE((*result)->reaction);
-    OST_FREE((*result)->passed);
+    OST_FREE((*result)->passed, (*result)->moved);
     OST_FREE((*result)->strain);
     OST_FREE((*result)->stress);
     OST_FREE((*result)->strain_energy_density);
@@ -92,6 +92,8 @@ OstStatus ost_result_take_load(OstResult *result, const OstProblem *problem, dou
     OST_THEN(OST_NEW(ctx, &result->reaction, 3 * (size_t)nodes));
     if (watches_reaction(problem) && (problem->supports->links || ost_distributing_any(problem)))
         OST_THEN(OST_NEW(ctx, &result->passed, 3 * (size_t)result->mesh->owned_nodes));
+    if (result->passed && ost_distributing_any(problem))
+        OST_THEN(OST_NEW(ctx, &result->moved, 3 * (size_t)result->mesh->owned_nodes));
     if (status == OST_SUCCESS)
         ost_problem_load(problem, t, result->displacement, result->force);
     result->t = ost_problem_eigen_share(problem, t);

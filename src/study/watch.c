@@ -57,18 +57,20 @@ static void add_reaction(const OstResult *result, const OstWatch *watch, OstLoca
     const double *x = result->mesh->coordinates + 3 * (size_t)node;
     const double *u = result->displacement + 3 * (size_t)node;
     const int turns = result->formulation != OST_FORMULATION_LINEAR;
-    double arm[3], force[3], moment[3], borne[3], passed[3];
+    double arm[3], force[3], moment[3], borne[3], passed[3], moved[3];
     for (int i = 0; i < 3; i++) {
         const size_t n = 3 * (size_t)node + (size_t)i;
-        passed[i] = result->passed ? result->passed[n] : 0.0;
-        borne[i] = result->reaction[n] - passed[i];
+        const double both = result->passed ? result->passed[n] : 0.0;
+        moved[i] = result->moved ? result->moved[n] : 0.0;
+        passed[i] = both - moved[i];
+        borne[i] = result->reaction[n] - both;
         arm[i] = x[i] + (turns ? u[i] : 0.0) - watch->about[i];
         force[i] = borne[i];
     }
     if (share)
         ost_apply3(share->own, borne, force);
     for (int i = 0; i < 3; i++)
-        force[i] += !share || share->is_passed ? passed[i] : 0.0;
+        force[i] += (!share || share->is_passed ? passed[i] : 0.0) + (!share || share->is_moved ? moved[i] : 0.0);
     ost_cross3(arm, force, moment);
     for (int i = 0; i < 3; i++)
         sum[i] += watch->of_moment ? moment[i] : force[i];
@@ -121,11 +123,12 @@ static OstStatus reaction(const OstScene *scene, const OstResult *result, const 
     int does_act = 0;
     watched->in_doubt = 0;
     OST_TRY(ost_select_nodes(scene->c, scene->mesh, &watch->on, &count, &nodes));
-    OstStatus status = ost_select_shares(scene->c, scene->mesh, &watch->on, count, nodes, &shares);
+    OstStatus status = ost_select_shares(scene->c, scene->mesh, watch, count, nodes, &shares);
     for (OstLocal n = 0; n < count && status == OST_SUCCESS; n++)
         if (nodes[n] < scene->mesh->owned_nodes) {
             add_reaction(result, watch, nodes[n], &shares[n], sum);
-            watched->in_doubt |= shares[n].is_unknown;
+            if ((int)shares[n].unknown > watched->in_doubt)
+                watched->in_doubt = (int)shares[n].unknown;
         }
     OST_THEN(acts(result, watch, count, nodes, shares, &watched->terms, &does_act));
     OST_FREE(shares);
@@ -203,10 +206,16 @@ static const char *why_no_energy(const OstScene *scene, const OstResult *result)
                                                        : "both loads and prescribed displacements act";
 }
 
-static const char *why_no_reaction(const OstScene *scene, const OstResult *result, const OstWatched *watched)
+static const char *why_in_doubt(const OstWatched *watched)
 {
-    if (watched->in_doubt)
-        return "at its edge two links meet: what each of them takes there cannot be told";
+    if (watched->in_doubt == OST_BEARING_OF_TIE)
+        return "a tie passes a force on to its face too, of which supports hold a part: the tie's is that on its "
+               "other face, and theirs that on both together";
+    return "at its edge two links meet: what each of them takes there cannot be told";
+}
+
+static const char *why_no_reaction(const OstScene *scene, const OstResult *result)
+{
     if (scene->c->free_body)
         return "a free body has none";
     return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
@@ -218,17 +227,21 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 static const char *find_why(const OstScene *scene, const OstResult *result, const OstWatch *watch,
                             const OstWatched *watched)
 {
+    if (watch->kind == OST_WATCH_REACTION && watched->in_doubt)
+        return why_in_doubt(watched);
     if (!ost_effect_on(&scene->plan.effects, OST_EFFECT_ERROR_ESTIMATE)) /* not asked for, or no room for it */
         return ost_plan_writes(scene->c, OST_FIELD_ERROR) ? "the error of the answer is not estimated" : NULL;
     if (!result->answer.known)
-        return "that of the answer is not";
+        return result->answer.is_indefinite
+                   ? "the stiffness that the estimate takes at the answer is not positive definite"
+                   : "that of the answer is not";
     if (is_moved_by_coupling(scene) && watch->kind != OST_WATCH_STRAIN_ENERGY)
         return force_is_unknown;
     switch (watch->kind) {
     case OST_WATCH_STRAIN_ENERGY:
         return why_no_energy(scene, result);
     case OST_WATCH_REACTION:
-        return why_no_reaction(scene, result, watched);
+        return why_no_reaction(scene, result);
     case OST_WATCH_STRESS:
         return "the mean of a measure that is not linear in the stress; those of xx, 11, pressure … have one";
     case OST_WATCH_DISPLACEMENT:

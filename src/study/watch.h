@@ -14,7 +14,7 @@ typedef struct OstWatched {
     double error; /* by how much the exact value is larger, as estimated; NAN: not estimated */
     int placed;   /* has the value a place: that of a least or largest one? */
     double place[3];
-    int in_doubt;      /* of a reaction: do two links meet at its edge, or one and springs? */
+    int in_doubt;      /* of a reaction: an OstBearingDoubt, of any of its nodes */
     const char *why;   /* is the error not known although the estimate was asked for; NULL else */
     const char *exact; /* why the value has no error of the mesh, in words; NULL else */
 } OstWatched;

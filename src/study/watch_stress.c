@@ -288,12 +288,67 @@ static OstStatus warn_of_axes(const OstScene *scene, const OstWatch *watch, cons
     return OST_SUCCESS;
 }
 
+/* The vertices of a tet between which a point of its border lies, in `corner` (INT64_MAX: of other ranks; -1: none). */
+static void find_corners(const OstMesh *mesh, const OstLocated *located, OstGlobal corner[4])
+{
+    static const double rounding = 1e-9;
+    for (int k = 0; k < 4; k++) {
+        corner[k] = INT64_MAX;
+        if (located->tet >= 0)
+            corner[k] = located->at[k] > rounding ? mesh->node_number[ost_mesh_nodes_of(mesh, located->tet)[k]] : -1;
+    }
+}
+
+static int has_corners(const OstMesh *mesh, OstLocal tet, const OstGlobal corner[4])
+{
+    const OstLocal *nodes = ost_mesh_nodes_of(mesh, tet);
+    int all = 1;
+    for (int k = 0; k < 4 && all; k++) {
+        int found = corner[k] < 0;
+        for (int a = 0; a < 4; a++)
+            found |= mesh->node_number[nodes[a]] == corner[k];
+        all = found;
+    }
+    return all;
+}
+
+static int have_one_material(const OstScene *scene, int region, int other)
+{
+    const OstCaseMaterial *material = ost_case_material_of(scene->c, scene->mesh->regions.name[region]);
+    return material && material == ost_case_material_of(scene->c, scene->mesh->regions.name[other]);
+}
+
+/* On the border of two materials the stress jumps. */
+static OstStatus warn_of_border(const OstScene *scene, const OstWatch *watch, const OstLocated *located)
+{
+    const OstMesh *mesh = scene->mesh;
+    char *const *name = mesh->regions.name;
+    OstGlobal corner[4];
+    int own = located->tet >= 0 ? mesh->tet_region[located->tet] : -1, other = -1;
+    find_corners(mesh, located, corner);
+    OST_TRY(ost_min_numbers(scene->ctx, 4, corner));
+    OST_TRY(ost_max_ints(scene->ctx, 1, &own));
+    for (OstLocal tet = 0; tet < mesh->owned_tets; tet++)
+        if (mesh->tet_region[tet] > other && mesh->tet_region[tet] != own && has_corners(mesh, tet, corner) &&
+            !have_one_material(scene, own, mesh->tet_region[tet]))
+            other = mesh->tet_region[tet];
+    OST_TRY(ost_max_ints(scene->ctx, 1, &other));
+    if (other >= 0)
+        ost_warn(scene->ctx,
+                 "'%s' is at a point on the border of the regions '%.60s' and '%.60s', where stresses may jump: it is "
+                 "that in '%.60s'; move the point a little into the one that is meant",
+                 watch->name, name[own], name[other], name[own]);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_watch_check_stress(const OstScene *scene, const OstWatch *watch)
 {
     OstLocated located;
     if (watch->region)
         return check_region(scene, watch);
     OST_TRY(ost_locate(scene->mesh, 1, watch->at, &located));
+    if (located.label > 0)
+        OST_TRY(warn_of_border(scene, watch, &located));
     return located.label > 0
                ? warn_of_axes(scene, watch, &located)
                : OST_RAISE(scene->ctx, OST_INVALID_INPUT, "%s:%d: '%s' is at (%g, %g, %g), which is outside the body",

@@ -107,6 +107,11 @@ def what_lies_anywhere_is_told():
         check(not warned(f"{MUSCLE}, {settled}"), f"{settled}: {warned(f'{MUSCLE}, {settled}')}")
     check(not warned(MUSCLE + ", fibre: [1, 0, 0]", ""), "nothing is asked for along the axes")
 
+    keeps = "youngs_modulus: {plane: 20, axis: 60}, poissons_ratio: {plane: 0.8332, plane_axis: 0.16664}, shear_modulus: {axis: 10}, fibre: [1, 0, 0]"
+    for eigenstrain, changes in ("[0, 0, -0.2]", True), ("[0.1, 0.1, -0.2]", False), ("0.05", False):
+        said = warned(f"{keeps}, eigenstrain: {eigenstrain}", "element: {order: 2}\n")
+        check(any("its eigenstrain changes the volume: unless something prevents it, by about -20 %" in one for one in said) == changes, f"{said}")
+
     strong = MUSCLE + ", fibre: [1, 0, 0], strengths: {tension: {plane: 3, axis: 80}, shear: {plane: %s, axis: 8}}"
     said = warned(strong % 2, "")
     check(len(said) == 1 and "tsai_wu_load_factor, hill_load_factor, maximum_stress_load_factor;" in said[0] and

@@ -278,6 +278,46 @@ def what_a_tie_passes_on_is_no_reaction():
         check(abs(values["tie"]) > 0.1, f"the coupling's force: {values}")
 
 
+HELD_TIE = """
+mesh: {file: two.msh}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 100, poissons_ratio: 0.3}]
+large_rotation: off
+constraints:
+  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}
+SUPPORTS
+watch:
+  leads: {reaction: {boundary: a_xmax}, component: z}
+  follows: {reaction: {boundary: b_xmin}, component: z}
+  both: {reaction: {boundary: [a_xmax, b_xmin]}}
+accuracy: {relative_residual: 1e-10}
+"""
+
+
+def what_holds_a_tied_face_bears_its_own():
+    """By balance: its force, and not what the tie passes on, which the other face has. Where a part is held, both are in it."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (1, 1, 1), (2, 2, 2), "a"), ("b", (1, 0, 0), (1, 1, 1), (2, 2, 2), "b")])
+    load = "loads: [{on: {boundary: b_zmax}, traction: [1, 2, 3]}]"
+    hold = "  - {on: {WHERE}, displacement: [0, 0, 0]}\n"
+    coupling = "{on: {boundary: b_xmin}, distributing: {at: [1, 0.5, 0.5], displacement: [free, free, 0.01]}}]"
+    for supports, ranks, expected in (
+            (hold.replace("WHERE", "boundary: a_xmax") + load, 3, (-3, -3)),
+            (f"springs: [{{on: {{boundary: a_xmax}}, foundation: 5}}]\n{load}", 1, (-3, -3)),
+            (f"springs: [{{on: {{boundary: b_xmin}}, foundation: 5}}]\n{load}", 1, (0, -3)),
+            (hold.replace("WHERE", "vertices: [19, 20, 21, 22, 23, 24]") + load, 1, (None, -3))):
+        finished, report, _ = solve(HELD_TIE.replace("SUPPORTS", supports), ranks=ranks, folder=folder)
+        check(finished.exit_code == 0, f"{supports}: {finished.errors}")
+        near(report["watched"]["both"]["value"], 14**0.5, 1e-7, supports)
+        for name, value in zip(("leads", "follows"), expected):
+            of = report["watched"][name]
+            check("a tie passes" in of.get("error_not_known", "") if value is None else
+                  abs(of["value"] - value) < 1e-7 and abs(of["error"]) < 1e-6, f"{supports}: {name} is {of}")
+    moved = watched(HELD_TIE.replace("SUPPORTS", hold.replace("WHERE", "boundary: b_xmax") + load.replace("]}]", "]}, " + coupling)), folder, (1,))
+    check(abs(moved["follows"]) > 0.01, f"the coupling's force: {moved}")
+    near(abs(moved["follows"]), moved["both"], 1e-8, "the coupling's force")
+
+
 CELL_ON_A_PLANE = """
 mesh: {file: cell.msh}
 element: {order: 2}
@@ -568,6 +608,8 @@ def what_cannot_be_is_refused():
     write(folder, "ends.inp", ENDS)
     held = "{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}"
     tied = TIED.replace("ORDER", "1").replace("LOAD", "traction: [12, 0, 0]").replace("NU", "0.3")
+    rigid = tied.replace("boundary: a_ymin", "nearest: [0, 0, 0]").replace("boundary: a_zmin", "nearest: [0, 0, 0]")
+    rigid = rigid.replace("a_xmax}}", "a_xmax}, tolerance: 0.2}\n  - {on: {boundary: a_xmax}, rigid: [2, 0.5, 0.5]}")
     for text, words in (
             (cell.replace(f", {held}", ""), "can move"),
             (cell.replace("[0, 0, 0]}, disp", "[1, 1, 1]}, disp"), "and is constrained besides"),
@@ -577,6 +619,7 @@ def what_cannot_be_is_refused():
             (asks.replace("[_xmin, _xmax]", "[_xmin, _xmas]"), "did you mean '_xmax'"),
             (asks.replace("layers.msh", "ends.inp"), "boundary '_zmin' has no faces"),
             (tied, "away from the faces that it is tied to"),
+            (rigid, "let one rigid face have both"),
             (tied.replace("b_xmin}, tied", "b_xmax}, tied"), "tolerance:"),
             (tied.replace("b_xmin}, tied", "a_xmax}, tied"), "this tie joins nothing"),
             (tied.replace("  - {on: {boundary: b_xmin}, tied_to: {boundary: a_xmax}}\n", ""), "can move"),
@@ -600,6 +643,7 @@ load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
 what_a_tie_passes_on_is_no_reaction()
+what_holds_a_tied_face_bears_its_own()
 what_periodic_faces_pass_on_is_no_reaction()
 a_tie_joins_what_coincides()
 both_sides_of_a_tie_are_refined()

@@ -200,6 +200,10 @@ def arbitrary_points(folder):
             ended = run(command, "fibre.yaml", folder=folder)
             check(ended.exit_code == 0 and ("arbitrary numbers: s (11);" in ended.errors) == warned ==
                   ("arbitrary" in ended.errors), f"{command} {height} {component}: {ended.errors}")
+            check("on the border" not in ended.errors, f"{ended.errors}")
+    write(folder, "fibre.yaml", FIBRE.replace("HEIGHT", "0").replace("COMPONENT", "33"))
+    ended = run("check", "fibre.yaml", folder=folder)
+    check("border of the regions 'above' and 'below', where stresses may jump: it is that in 'above'" in ended.errors, ended.errors)
 
 
 # Limits of refinement, where nothing is refined.
@@ -214,7 +218,7 @@ def nothing_to_refine(folder):
     write(folder, "of.yaml", case + "accuracy: {relative_error: 0.1, of: tip}\n"
           "cases: [{name: a, watch: {tip: {displacement: {nearest: [0, 0, 1]}, component: x}}}, {name: b}]\n")
     ended = run("check", "of.yaml", folder=folder)
-    check(ended.exit_code == 2 and "'tip' is not watched in all load cases: what 'cases' adds to one" in ended.errors, ended.errors)
+    check(ended.exit_code == 2 and "'tip' is not watched in all load cases: what 'cases' adds to one alone does not count, also where --case takes" in ended.errors, ended.errors)
     write(folder, "energy.yaml", case + "accuracy: {of: energy}\nwatch: {energy: strain_energy}\n")
     ended = run("check", "energy.yaml", folder=folder)
     check(ended.exit_code == 2 and "the quantity watched in line 8 has that name too" in ended.errors, ended.errors)

@@ -205,6 +205,9 @@ def each_support_bears_its_own():
         for key, value in expected.items():
             of = report["watched"][key]
             check(abs(of["value"] - value) < 1e-6 and abs(of["error"]) < 1e-6, f"{name}: {key} is {of}, not {value}")
+    held = FOOT.replace("free", "0")  # a part of a foot that is held bears the same, with springs that cannot move or without
+    parts = [solve(text)[1]["watched"]["tilt"] for text in (held, held.replace(FOOT[FOOT.index("springs"):FOOT.index("loads")], ""))]
+    check(abs(parts[0]["value"]) > 0.1 and abs(parts[0]["value"] - parts[1]["value"]) < 1e-9, f"a part of a held foot: {parts}")
 
 
 def an_energy_is_not_stated_below_zero():
@@ -227,6 +230,18 @@ def pressure_follows_no_surface_by_linear_theory():
     _, report, _ = solve(pulled + "large_rotation: off\n")
     check(near(report["watched"]["held"]["value"], -2), f"the reaction is not that of linear theory: {report['watched']}")
     check(near(report["watched"]["held"]["value"], report["checks"]["reaction"][0]), f"two reactions: {report}")
+
+
+def no_error_without_a_definite_stiffness():
+    _, report, _ = solve("""mesh: {tube: {axis: x, length: 3, radii: [0.7, 1], divisions: {around: 8, radial: 1, axial: 4}}}
+large_rotation: on
+materials: [{region: all, youngs_modulus: [100, 30, 60], poissons_ratio: 0.3}]
+constraints: [{on: {boundary: bottom}, displacement: [0, 0, 0]}]
+loads: [{on: {boundary: inner}, pressure: 6, follows: true}]
+watch: {energy: strain_energy}
+""")
+    check(report["answer_error"] is None and "not positive definite" in report["watched"]["energy"]["error_not_known"] and
+          any("set element: {order: 2}" in one for one in report["warnings"] if "not known" in one), f"{report}")
 
 
 def reactions_of_a_nearly_incompressible_body_balance_its_loads():
@@ -258,8 +273,10 @@ loads: [{on: {boundary: xmax}, total_force: [0, 0, -2]}]
 watch:
   nearer: {displacement: {nearest: [10, 0, 0.1]}, component: x}
   lower: {displacement: {nearest: [10, 0, 0.1]}, component: z}
+  free: {reaction: {boundary: zmax}, component: x}
 """
     finished, report, _ = solve(strip)
+    check("'free' is" not in finished.errors and report["watched"]["free"]["value"] == 0, finished.errors)
     check("'nearer' is" in finished.errors and "large_rotation: on" in finished.errors, finished.errors)
     check("'lower' is" not in finished.errors and any("'nearer' is" in w for w in report["warnings"]), report["warnings"])
     finished, report, _ = solve(strip + "large_rotation: on\n")
@@ -426,6 +443,7 @@ def main():
     reactions_balance_the_loads()
     each_support_bears_its_own()
     springs_bear_nothing_where_nodes_are_held()
+    no_error_without_a_definite_stiffness()
     an_energy_is_not_stated_below_zero()
     pressure_follows_no_surface_by_linear_theory()
     reactions_of_a_nearly_incompressible_body_balance_its_loads()

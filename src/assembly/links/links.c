@@ -282,7 +282,8 @@ static OstStatus take_leader(OstLinks *links, const Leading *leading, OstLink *l
     if (of->follows)
         return raise_of(links, link,
                         "follows one that itself follows another (tied, periodic or rigid faces meet); exchange the "
-                        "two faces of a pair, or leave the edge out of one selection");
+                        "two faces of a pair, leave the edge out of one selection, or, where a tie leads to a rigid "
+                        "face, let one rigid face have both selections in place of the tie");
     memcpy(weight, link->leader[k].weight, sizeof weight);
     ost_multiply3(weight, of->held.projector, link->leader[k].weight);
     ost_apply3(weight, of->held.prescribed, moved);

@@ -207,6 +207,8 @@ OstStatus ost_distributing_react(const OstProblem *problem, double t, OstResult 
         result->reaction[i] += driven;
         if (result->passed)
             result->passed[i] += driven;
+        if (result->moved)
+            result->moved[i] = driven;
     }
     return ost_halo_import(problem->mesh->halo, 3 * sizeof(double), result->reaction);
 }

@@ -3,6 +3,7 @@
 
 #include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
+#include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
@@ -234,6 +235,21 @@ static OstStatus compare(const OstProblem *problem, const OstResult *result, con
     return OST_SUCCESS;
 }
 
+/* What supports and springs take of the change of a node's forces: the rest is what the correction leaves. At linked
+ * nodes it is passed on, too. */
+static void take_supported(const OstSupports *supports, OstLocal node, const double *of_springs, double *force)
+{
+    double projector[9], rest[3], left[3];
+    if (supports->links && (supports->links->leads[node] || supports->links->of_node[node] >= 0))
+        return;
+    for (int i = 0; i < 3; i++)
+        rest[i] = force[i] - of_springs[i];
+    ost_supports_get(supports, node, projector, NULL);
+    ost_apply3(projector, rest, left);
+    for (int i = 0; i < 3; i++)
+        force[i] -= left[i];
+}
+
 /* What the corrected forces of the tets have beside the linear ones. Those of the correction's pressure would come to
  * it in a mixed form, which has none of this. */
 static OstStatus find_reactions(const OstProblem *problem, OstResult *result, const Work *work)
@@ -246,6 +262,13 @@ static OstStatus find_reactions(const OstProblem *problem, OstResult *result, co
                                                           result->left_out, result->left_out_reaction, NULL)));
     for (size_t i = 0; i < owned; i++)
         result->left_out_reaction[i] += work->even[i];
+    double *of_springs = work->load;
+    memset(of_springs, 0, owned * sizeof *of_springs);
+    if (problem->supports->spring)
+        ost_spring_force(problem->supports, 1.0, result->left_out, of_springs);
+    for (OstLocal node = 0; node < problem->mesh->owned_nodes; node++)
+        take_supported(problem->supports, node, of_springs + 3 * (size_t)node,
+                       result->left_out_reaction + 3 * (size_t)node);
     return OST_SUCCESS;
 }
 

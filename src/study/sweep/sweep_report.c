@@ -10,7 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDEST_KEY = 18 };
+/* The width of a key's column: of the key, or of a number. */
+static int width_of(const OstSweep *sweep, int key)
+{
+    enum { OF_A_NUMBER = 18 };
+    const int length = (int)strlen(sweep->key[key].key);
+    return length > OF_A_NUMBER ? length : OF_A_NUMBER;
+}
 
 /* A value as a number, where it is one. */
 static int read_number(const char *text, double *number)
@@ -25,11 +31,8 @@ void ost_sweep_print(const OstSweep *sweep)
     if (ost_rank(sweep->ctx) != 0)
         return;
     printf("%s: %d run%s\n", sweep->path, sweep->run_count, sweep->run_count == 1 ? "" : "s");
-    for (int k = 0; k < sweep->key_count; k++) { /* of a long key its end, in which keys differ */
-        const char *key = sweep->key[k].key;
-        const size_t length = strlen(key);
-        printf("  %18s", length > WIDEST_KEY ? key + length - WIDEST_KEY : key);
-    }
+    for (int k = 0; k < sweep->key_count; k++)
+        printf("  %*s", width_of(sweep, k), sweep->key[k].key);
     if (sweep->case_count > 0)
         printf("  %-16s", "load case");
     printf(" %14s %14s %9s %7s", "largest |u|", "strain energy", "off by", "Newton");
@@ -39,7 +42,7 @@ void ost_sweep_print(const OstSweep *sweep)
     for (int r = 0; r < sweep->done; r++) {
         const OstSweepRun *run = &sweep->run[r];
         for (int k = 0; k < sweep->key_count; k++)
-            printf("  %18.18s", run->value[k]);
+            printf("  %*.*s", width_of(sweep, k), width_of(sweep, k), run->value[k]);
         if (run->load_case)
             printf("  %-16s", run->load_case);
         if (run->failure) {
