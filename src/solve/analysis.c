@@ -9,6 +9,8 @@
 #include "solve/distributing/distributing.h"
 #include "solve/linear.h"
 
+#include <math.h>
+
 OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *options, OstAnalysis **analysis)
 {
     OstContext *ctx = problem->ctx;
@@ -16,7 +18,8 @@ OstStatus ost_analysis_create(OstProblem *problem, const OstSolverOptions *optio
     const OstStrategy *strategy = is_linear ? &ost_linear_strategy : &ost_nonlinear_strategy;
     *analysis = NULL;
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, analysis, 1)));
-    **analysis = (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy};
+    **analysis =
+        (OstAnalysis){.ctx = ctx, .problem = problem, .options = *options, .strategy = strategy, .cut_off = NAN};
     return OST_SUCCESS;
 }
 

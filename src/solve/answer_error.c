@@ -284,6 +284,16 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
     return OST_SUCCESS;
 }
 
+/* Once for all loads. */
+static OstStatus find_cut_off(OstAnalysis *analysis, OstResult *result)
+{
+    double *known = analysis->company ? &analysis->company->cut_off : &analysis->cut_off;
+    if (isnan(*known))
+        OST_TRY(ost_mesh_cut_off(result->mesh, known));
+    result->answer.cut_off = *known;
+    return OST_SUCCESS;
+}
+
 static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, double t, OstResult *result)
 {
     OstContext *ctx = result->ctx;
@@ -300,7 +310,7 @@ static OstStatus estimate_tets(OstAnalysis *analysis, OstEstimate *estimate, dou
     if (result->answer.known)
         OST_TRY_DONE(find_worst(result, share, &result->answer));
     if (result->answer.known)
-        OST_TRY_DONE(ost_mesh_cut_off(result->mesh, &result->answer.cut_off));
+        OST_TRY_DONE(find_cut_off(analysis, result));
     if (result->answer.known)
         OST_TRY_DONE(move_for_adjoints(analysis, t, result));
     if (result->answer.known && asks_of_quantity(analysis->problem))

@@ -38,6 +38,7 @@ struct OstAnalysis {
     void *work;             /* the strategy's; NULL until prepared */
     OstEstimate *estimate;  /* of the discretisation error; kept where the analysis serves several loads, else NULL */
     OstReactions reactions; /* adjoint problems of watched ones, likewise */
+    double cut_off;         /* of the mesh, as OstAnswerError has it; NAN: not found yet */
     int serves_several;     /* loads are to follow, so that what they share is kept */
     int leaves_reactions;   /* watched ones have no error until ost_analysis_find_reactions is called */
     OstAnalysis *company;   /* the one whose solver this shares with others that run beside it; linear theory alone will
