@@ -331,80 +331,6 @@ OST_KERNEL static void apply_eights(OstLightTets *tets, const float *functions, 
     }
 }
 
-/* As ost_light_tets_apply. */
-typedef struct Product {
-    const double *u;
-    const float *w;
-    double *force;
-    float *of_functions;
-} Product;
-
-static void open_product(const OstLightTets *tets, const Product *product, double *u, double *force)
-{
-    pad(tets, product->u, u);
-    memset(force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *force);
-    memset(product->of_functions, 0,
-           OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *product->of_functions);
-}
-
-static void close_product(const OstLightTets *tets, const double *force, const Product *product)
-{
-    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes; n++)
-        for (size_t i = 0; i < 3; i++)
-            product->force[3 * n + i] = force[4 * n + i];
-}
-
-static void apply_one(OstLightTets *tets, const Product *product)
-{
-    open_product(tets, product, tets->u, tets->force);
-    if (tets->mesh->nodes_per_tet == 10)
-        ost_quadratic_eights_apply(tets, product->w, product->of_functions);
-    else
-        apply_eights(tets, product->w, product->of_functions);
-    close_product(tets, tets->force, product);
-}
-
-static void apply_pair(OstLightTets *tets, void *const *product)
-{
-    const size_t numbers = 4 * (size_t)tets->mesh->node_count;
-    double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
-    Pair pair;
-    for (int k = 0; k < PAIR; k++) {
-        const Product *one = product[k];
-        open_product(tets, one, u[k], force[k]);
-        pair.u[k] = u[k];
-        pair.w[k] = one->w;
-        pair.force[k] = force[k];
-        pair.of_functions[k] = one->of_functions;
-    }
-    if (tets->mesh->nodes_per_tet == 10)
-        ost_quadratic_pairs_apply(tets, &pair);
-    else
-        ost_linear_pairs_apply(tets, &pair);
-    for (int k = 0; k < PAIR; k++)
-        close_product(tets, force[k], product[k]);
-}
-
-/* OstServe. Without room for pairs one after the other. */
-static OstStatus apply_all(void *common, int count, void *const *product)
-{
-    OstLightTets *tets = common;
-    if (count > 1 && !tets->second)
-        (void)OST_NEW(tets->mesh->ctx, &tets->second, 8 * (size_t)tets->mesh->node_count);
-    int k = 0;
-    for (; k + PAIR <= count && tets->second; k += PAIR)
-        apply_pair(tets, product + k);
-    for (; k < count; k++)
-        apply_one(tets, product[k]);
-    return OST_SUCCESS;
-}
-
-void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions)
-{
-    Product product = {u, w, force, of_functions};
-    (void)ost_together(tets->mesh->ctx, apply_all, OST_MOST_TOGETHER, tets, &product);
-}
-
 OST_KERNEL static void find_energies(const OstLightTets *tets, const float *functions, double *energy)
 {
     Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
@@ -423,13 +349,100 @@ OST_KERNEL static void find_energies(const OstLightTets *tets, const float *func
     }
 }
 
+/* As ost_light_tets_apply, or, with an energy, as ost_light_tets_energy. */
+typedef struct Product {
+    const double *u;
+    const float *w;
+    double *force;
+    float *of_functions;
+    double *energy;
+} Product;
+
+static void open_product(const OstLightTets *tets, const Product *product, double *u, double *force)
+{
+    pad(tets, product->u, u);
+    if (product->energy)
+        return;
+    memset(force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *force);
+    memset(product->of_functions, 0,
+           OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *product->of_functions);
+}
+
+static void close_product(const OstLightTets *tets, const double *force, const Product *product)
+{
+    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes && !product->energy; n++)
+        for (size_t i = 0; i < 3; i++)
+            product->force[3 * n + i] = force[4 * n + i];
+}
+
+static void find_one(OstLightTets *tets, const Product *product)
+{
+    const int is_quadratic = tets->mesh->nodes_per_tet == 10;
+    open_product(tets, product, tets->u, tets->force);
+    if (product->energy)
+        (is_quadratic ? ost_quadratic_eights_energy : find_energies)(tets, product->w, product->energy);
+    else
+        (is_quadratic ? ost_quadratic_eights_apply : apply_eights)(tets, product->w, product->of_functions);
+    close_product(tets, tets->force, product);
+}
+
+static void find_pair(OstLightTets *tets, void *const *product)
+{
+    const int is_quadratic = tets->mesh->nodes_per_tet == 10;
+    const size_t numbers = 4 * (size_t)tets->mesh->node_count;
+    double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
+    Pair pair;
+    for (int k = 0; k < PAIR; k++) {
+        const Product *one = product[k];
+        open_product(tets, one, u[k], force[k]);
+        pair.u[k] = u[k];
+        pair.w[k] = one->w;
+        pair.force[k] = force[k];
+        pair.of_functions[k] = one->of_functions;
+        pair.energy[k] = one->energy;
+    }
+    if (pair.energy[0])
+        (is_quadratic ? ost_quadratic_pairs_energy : ost_linear_pairs_energy)(tets, &pair);
+    else
+        (is_quadratic ? ost_quadratic_pairs_apply : ost_linear_pairs_apply)(tets, &pair);
+    for (int k = 0; k < PAIR; k++)
+        close_product(tets, force[k], product[k]);
+}
+
+/* Two by two. Without room for that one after the other. */
+static OstStatus find_all(OstLightTets *tets, int count, void *const *product)
+{
+    if (count > 1 && !tets->second)
+        (void)OST_NEW(tets->mesh->ctx, &tets->second, 8 * (size_t)tets->mesh->node_count);
+    int k = 0;
+    for (; k + PAIR <= count && tets->second; k += PAIR)
+        find_pair(tets, product + k);
+    for (; k < count; k++)
+        find_one(tets, product[k]);
+    return OST_SUCCESS;
+}
+
+/* OstServe. */
+static OstStatus apply_all(void *tets, int count, void *const *product)
+{
+    return find_all(tets, count, product);
+}
+
+static OstStatus find_all_energies(void *tets, int count, void *const *product)
+{
+    return find_all(tets, count, product);
+}
+
+void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions)
+{
+    Product product = {.u = u, .w = w, .force = force, .of_functions = of_functions};
+    (void)ost_together(tets->mesh->ctx, apply_all, OST_MOST_TOGETHER, tets, &product);
+}
+
 void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy)
 {
-    pad(tets, u, tets->u);
-    if (tets->mesh->nodes_per_tet == 10)
-        ost_quadratic_eights_energy(tets, w, energy);
-    else
-        find_energies(tets, w, energy);
+    Product product = {.u = u, .w = w, .energy = energy};
+    (void)ost_together(tets->mesh->ctx, find_all_energies, OST_MOST_TOGETHER, tets, &product);
 }
 
 /* --- the functions' own blocks --- */

@@ -60,12 +60,13 @@ static inline void transpose_pair_back(const Sixteen in[3], Four row[PAIR * WIDT
     }
 }
 
-/* Of two displacements: padded, and their functions' values; and the forces that are added to. */
+/* Of two displacements: padded, and their functions' values; and the forces that are added to, or the energies. */
 typedef struct Pair {
     const double *u[PAIR];
     const float *w[PAIR];
     double *force[PAIR];
     float *of_functions[PAIR];
+    double *energy[PAIR]; /* as ost_light_tets_energy */
 } Pair;
 
 /* How a node of each of eight tets moves from vertex 0. */
@@ -129,8 +130,27 @@ static inline void add_nodes_pair(const OstLightTets *tets, const Eights *eights
     }
 }
 
+/* Work done at `count` places: moved by so much, under these forces. */
+static inline void add_work(int count, Sixteen (*moved)[3], Sixteen (*forces)[3], Sixteen *work)
+{
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 3; i++)
+            *work += moved[k][i] * forces[k][i];
+}
+
+static inline void keep_energies(const OstLightTets *tets, const Eights *eights, const Sixteen *work, const Pair *pair)
+{
+    for (int slot = 0; slot < WIDTH; slot++)
+        for (int k = 0; k < PAIR && eights->volume[slot] != 0.0F && eights->tet[slot] < tets->mesh->owned_tets; k++)
+            pair->energy[k][eights->tet[slot]] = (double)(*work)[WIDTH * k + slot];
+}
+
 /* Local. Adds the forces to those of the pair. */
 void ost_linear_pairs_apply(const OstLightTets *tets, const Pair *pair);
 void ost_quadratic_pairs_apply(const OstLightTets *tets, const Pair *pair);
+
+/* Local. Finds its energies. */
+void ost_linear_pairs_energy(const OstLightTets *tets, const Pair *pair);
+void ost_quadratic_pairs_energy(const OstLightTets *tets, const Pair *pair);
 
 #endif

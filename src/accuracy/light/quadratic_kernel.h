@@ -101,8 +101,8 @@ static inline void integrate_points(const Straight *tet, const AboutLine *line, 
 }
 
 /* Forces of what nodes and functions have moved. */
-static inline void find_forces(const OstLightTets *tets, size_t k, Number moved[NODES][3], Number w[FUNCTIONS][3],
-                               Number at_nodes[NODES][3], Number at_functions[FUNCTIONS][3])
+static inline void find_forces(const OstLightTets *tets, size_t k, Number (*moved)[3], Number (*w)[3],
+                               Number (*at_nodes)[3], Number (*at_functions)[3])
 {
     const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
     Number strain[PRODUCTS][6], moment[PRODUCTS][6];
