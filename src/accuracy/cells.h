@@ -125,14 +125,18 @@ static inline void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned
 static inline void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
                                   double *of_state)
 {
-    for (int slot = 0; slot < cells->batch.count; slot++)
-        for (int k = 0; k < cells->functions; k++) {
+    for (int k = 0; k < cells->functions; k++) {
+        OstSimd turned[3];
+        for (int i = 0; i < 3; i++)
+            turned[i] = cells->turn[k] * at_functions[3 * k + i];
+        for (int slot = 0; slot < cells->batch.count; slot++) {
             const OstLocal function = cells->function[slot][k];
             if (!ost_complement_owns(operator->complement, function))
                 continue;
             for (int i = 0; i < 3; i++)
-                of_state[3 * (size_t)function + (size_t)i] -= cells->turn[k][slot] * at_functions[3 * k + i][slot];
+                of_state[3 * (size_t)function + (size_t)i] -= turned[i][slot];
         }
+    }
 }
 
 static inline void add_to_functions(const Cells *cells, const OstSimd *at_functions, float *of_functions)

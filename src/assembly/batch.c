@@ -6,12 +6,12 @@
 
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered)
 {
-    for (int a = 0; a < nodes; a++)
-        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-            const double *vector = vectors + 3 * (size_t)batch->node[slot][a];
-            for (int i = 0; i < 3; i++)
-                gathered[3 * a + i][slot] = vector[i];
-        }
+    const double *of_node[OST_SIMD_WIDTH];
+    for (int a = 0; a < nodes; a++) {
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+            of_node[slot] = vectors + 3 * (size_t)batch->node[slot][a];
+        ost_simd_gather3(of_node, gathered + 3 * a);
+    }
 }
 
 /* Quadratic tets sum coordinates times derivatives of shape functions. Far from the origin that would round as much as

@@ -70,6 +70,14 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
 /* Local. Evaluates the points of the batch's quadrature into `kept`, for displacements of linear theory that follow. */
 void ost_batch_keep_points(OstBatch *batch, const OstElement *element, OstKeptPoints *kept);
 
+/* The sums of the squares of six numbers. */
+static inline void ost_batch_squares(const OstSimd numbers[6], OstSimd *sum)
+{
+    *sum = numbers[0] * numbers[0];
+    for (int p = 1; p < 6; p++)
+        *sum += numbers[p] * numbers[p];
+}
+
 /* Called with each batch of owned tets, the displacements u of their nodes, and their means. */
 typedef void (*OstMeansVisit)(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                               const OstMeans *means);

@@ -42,25 +42,12 @@ typedef struct Request {
     const double *from, *to; /* of the last step, or NULL */
 } Request;
 
-/* Forces and mean stresses by linear theory. */
-static void find_both(const OstElement *element, const OstBatch *batch, const OstSimd *u, OstSimd *force,
-                      OstSimd stress[6])
-{
-    OstMeans means;
-    if (element->force_and_stress) {
-        element->force_and_stress(batch->x, &batch->elasticity, u, force, stress);
-        return;
-    }
-    element->force(batch->x, &batch->elasticity, u, force);
-    element->means(batch->x, &batch->elasticity, u, &means);
-    memcpy(stress, means.stress, sizeof means.stress);
-}
-
 static void add_squares(const OstBatch *batch, OstLocal owned_tets, const OstSimd stress[6], double *sum)
 {
+    OstSimd square;
+    ost_batch_squares(stress, &square);
     for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6 && batch->tet[slot] < owned_tets; p++)
-            *sum += stress[p][slot] * stress[p][slot];
+        *sum += batch->tet[slot] < owned_tets ? square[slot] : 0.0;
 }
 
 static void find_turned(const Request *request, const OstElement *element, const OstBatch *batch, const OstSimd *u,
@@ -85,7 +72,7 @@ static void add_batch(const Request *request, const OstElement *element, const O
     ost_batch_gather_vectors(batch, element->nodes, request->u, displacement);
     if (request->stress) {
         OstSimd stress[6];
-        find_both(element, batch, displacement, of_tets, stress);
+        element->force_and_stress(batch->x, &batch->elasticity, displacement, of_tets, stress);
         add_squares(batch, request->mesh->owned_tets, stress, request->stress);
     } else if (request->force && request->formulation == OST_FORMULATION_LINEAR)
         element->force(batch->x, &batch->elasticity, displacement, of_tets);

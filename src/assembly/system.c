@@ -133,6 +133,10 @@ OstStatus ost_system_displacement(const OstSystem *system, double t, const doubl
         double *displacement = u + 3 * (size_t)node;
         double projector[9];
         double prescribed[3];
+        if (row >= 0 && !links && system->supports->index[node] < 0) {
+            memcpy(displacement, v + 3 * (size_t)row, 3 * sizeof *displacement);
+            continue;
+        }
         ost_supports_get(system->supports, node, projector, prescribed);
         if (row >= 0)
             ost_apply3(projector, v + 3 * (size_t)row, displacement);
@@ -157,6 +161,10 @@ OstStatus ost_system_take_rows(const OstSystem *system, const double *force, dou
     for (OstLocal row = 0; row < system->matrix->rows && status == OST_SUCCESS; row++) {
         const OstLocal node = system->node_of_row[row];
         double projector[9];
+        if (!links && system->supports->index[node] < 0) {
+            memcpy(of_rows + 3 * (size_t)row, force + 3 * (size_t)node, 3 * sizeof *of_rows);
+            continue;
+        }
         ost_supports_get(system->supports, node, projector, NULL);
         ost_apply3(projector, force + 3 * (size_t)node, of_rows + 3 * (size_t)row);
         for (size_t i = 0; i < 3 && links; i++) {

@@ -70,7 +70,7 @@ typedef struct OstElement {
     /* Internal forces B'C (B u - e0), K u where there is no eigenstrain, computed without K: 3 numbers a node. */
     void (*force)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force);
 
-    /* The forces, and of `means` the stress. NULL: as the two find them. */
+    /* The forces, and of `means` the stress. */
     void (*force_and_stress)(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force,
                              OstSimd stress[6]);
 

@@ -54,4 +54,21 @@ static inline void ost_simd_transpose(const OstSimdFour in[OST_SIMD_FOUR], OstSi
     out[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
 }
 
+/* Three numbers of each tet, each from its own place. (Number by number the registers would be put together in memory,
+ * and wait for it.) */
+static inline void ost_simd_gather3(const double *const from[OST_SIMD_WIDTH], OstSimd gathered[3])
+{
+    OstSimdFour row[OST_SIMD_WIDTH], number[OST_SIMD_WIDTH];
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++)
+        row[slot] = (OstSimdFour){from[slot][0], from[slot][1], from[slot][2]};
+    for (int first = 0; first < OST_SIMD_WIDTH; first += OST_SIMD_FOUR)
+        ost_simd_transpose(row + first, number + first);
+    for (int i = 0; i < 3; i++)
+#ifdef __AVX512F__
+        gathered[i] = __builtin_shufflevector(number[i], number[OST_SIMD_FOUR + i], 0, 1, 2, 3, 4, 5, 6, 7);
+#else
+        gathered[i] = number[i];
+#endif
+}
+
 #endif

@@ -137,27 +137,40 @@ static inline void determinant_of(const OstSimd *x, OstSimd gradient[3][3], OstS
     *determinant = (x[3] - x[0]) * gradient[0][0] + (x[4] - x[1]) * gradient[0][1] + (x[5] - x[2]) * gradient[0][2];
 }
 
-OST_KERNEL static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+/* `mean`: becomes the stress; or NULL. */
+static inline void find_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force,
+                              OstSimd *mean)
 {
     OstSimd gradient[3][3];
     OstSimd strain[6];
     OstSimd stress[6];
-    OstSimd factor;
+    OstSimd factor, determinant;
     scaled_gradients(x, gradient, &factor);
     scaled_strain(gradient, u, strain);
-    if (elasticity->eigenstrained) {
-        OstSimd determinant;
-        determinant_of(x, gradient, &determinant);
-        for (int p = 0; p < 6; p++)
-            strain[p] -= determinant * elasticity->e0[0][p];
-    }
+    determinant_of(x, gradient, &determinant);
+    for (int p = 0; p < 6 && elasticity->eigenstrained; p++)
+        strain[p] -= determinant * elasticity->e0[0][p];
     ost_simd_stress(elasticity->c[0], strain, stress);
-    for (int p = 0; p < 6; p++)
+    for (int p = 0; p < 6; p++) {
+        if (mean)
+            mean[p] = stress[p] / determinant;
         stress[p] *= factor;
+    }
     for (int a = 1; a < 4; a++)
         ost_force_of_stress(gradient[a - 1], stress, force + 3 * a);
     for (int i = 0; i < 3; i++)
         force[i] = -(force[3 + i] + force[6 + i] + force[9 + i]);
+}
+
+OST_KERNEL static void tet4_force(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u, OstSimd *force)
+{
+    find_force(x, elasticity, u, force, NULL);
+}
+
+OST_KERNEL static void tet4_force_and_stress(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
+                                             OstSimd *force, OstSimd stress[6])
+{
+    find_force(x, elasticity, u, force, stress);
 }
 
 OST_KERNEL static void tet4_magnitude(const OstSimd *x, const OstElasticity *elasticity, const OstSimd *u,
@@ -305,6 +318,7 @@ const OstElement ost_tet4 = {
     .evaluate = tet4_evaluate,
     .stiffness = tet4_stiffness,
     .force = tet4_force,
+    .force_and_stress = tet4_force_and_stress,
     .magnitude = tet4_magnitude,
     .means = tet4_means,
     .nodal_strain = tet4_nodal_strain,

@@ -38,9 +38,10 @@ static void add_stresses(void *sum, const OstBatch *batch, const OstElement *ele
 {
     (void)element;
     (void)u;
+    OstSimd square;
+    ost_batch_squares(means->stress, &square);
     for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6; p++)
-            *(double *)sum += means->stress[p][slot] * means->stress[p][slot];
+        *(double *)sum += square[slot];
 }
 
 static void add_eigenstrains(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,

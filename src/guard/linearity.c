@@ -55,14 +55,17 @@ static inline void find_gradient(const OstBatch *batch, int nodes, const OstSimd
         }
 }
 
-/* Twice the vector of a matrix's antisymmetric part. */
-static inline void find_axis(const OstSimd matrix[9], int slot, double axis[3])
+/* The length of the vector of a matrix's antisymmetric part. */
+static inline void find_turn(const OstSimd matrix[9], OstSimd *length)
 {
+    OstSimd square = {0};
     for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3;
-        const int k = (i + 2) % 3;
-        axis[i] = matrix[3 * k + j][slot] - matrix[3 * j + k][slot];
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const OstSimd twice = matrix[3 * k + j] - matrix[3 * j + k];
+        square += twice * twice;
     }
+    ost_simd_square_root(&square);
+    *length = 0.5 * square;
 }
 
 /* Adds a weight times the work of stress on H'H - e², twice what the strain U - I has to second order. */
@@ -98,29 +101,30 @@ OST_KERNEL static void integrate_work(const OstBatch *batch, const OstElement *e
 
 /* The angle by which each tet turns: half the curl by linear theory, that of R where rotations are large. */
 OST_KERNEL static void find_angles(const OstBatch *batch, int nodes, OstFormulation formulation, const OstSimd *u,
-                                   const OstMeans *means, double angle[OST_SIMD_WIDTH], OstSimd *work)
+                                   const OstMeans *means, OstSimd *angle, OstSimd *work)
 {
     OstSimd gradient[9], rotation[9];
     OstPolar polar;
-    double axis[3];
     find_gradient(batch, nodes, u, gradient);
     *work = (OstSimd){0};
     add_stress_work(&means->volume, gradient, means->stress, work);
-    if (formulation != OST_FORMULATION_LINEAR) {
-        ost_polar(gradient, &polar);
-        ost_polar_rotation(&polar, rotation);
+    if (formulation == OST_FORMULATION_LINEAR) {
+        find_turn(gradient, angle);
+        return;
     }
-    for (int slot = 0; slot < batch->count; slot++) {
-        find_axis(formulation == OST_FORMULATION_LINEAR ? gradient : rotation, slot, axis);
-        angle[slot] = 0.5 * ost_norm3(axis);
-        if (formulation != OST_FORMULATION_LINEAR)
-            angle[slot] = atan2(angle[slot], 0.5 * (rotation[0][slot] + rotation[4][slot] + rotation[8][slot] - 1.0));
-    }
+    ost_polar(gradient, &polar);
+    ost_polar_rotation(&polar, rotation);
+    find_turn(rotation, angle);
+    for (int slot = 0; slot < batch->count; slot++)
+        (*angle)[slot] = atan2((*angle)[slot], 0.5 * (rotation[0][slot] + rotation[4][slot] + rotation[8][slot] - 1.0));
 }
 
 /* The eigenvalue of a strain with the largest absolute value, by the trigonometric solution of the cubic. */
-static double principal(const double e[6])
+static double principal(const OstMeans *means, int slot)
 {
+    double e[6];
+    for (int p = 0; p < 6; p++)
+        e[p] = means->strain[p][slot];
     const double mean = (e[0] + e[1] + e[2]) / 3.0;
     const double d[3] = {e[0] - mean, e[1] - mean, e[2] - mean};
     const double s[3] = {0.5 * e[3], 0.5 * e[4], 0.5 * e[5]}; /* 12 23 31 */
@@ -138,32 +142,37 @@ static double principal(const double e[6])
  * incompressible material whose work is more than the energy by this factor, the strain is. */
 static const double least_strain = 1e-10, most_work = 1e8;
 
-static void add_tet(const OstMeans *means, double angle, double work, int slot, OstLinearity *largest)
+static void add_tets(const OstBatch *batch, const OstMeans *means, const OstSimd *angle, const OstSimd *work,
+                     OstLinearity *largest)
 {
-    double e[6], square = 0.0, stress = 0.0;
+    const OstSimd energy = means->energy * means->volume;
+    OstSimd square = {0}, stress = {0};
     for (int p = 0; p < 6; p++) {
-        e[p] = means->strain[p][slot];
-        square += (p < 3 ? 1.0 : 0.5) * e[p] * e[p];
-        stress += (p < 3 ? 1.0 : 2.0) * means->stress[p][slot] * means->stress[p][slot];
+        square += (p < 3 ? 1.0 : 0.5) * means->strain[p] * means->strain[p];
+        stress += (p < 3 ? 1.0 : 2.0) * means->stress[p] * means->stress[p];
     }
-    largest->rotation = fmax(largest->rotation, angle);
-    if (square > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
-        largest->strain = fmax(largest->strain, principal(e));
-    largest->energy += means->energy[slot] * means->volume[slot];
-    if (sqrt(square) > least_strain * angle && sqrt(stress * square) < most_work * means->energy[slot])
-        largest->stiffening += 0.5 * work;
+    OstSimd size = square, most = stress * square;
+    ost_simd_square_root(&size);
+    ost_simd_square_root(&most);
+    const OstSimdMask counts = (size > least_strain * *angle) & (most < most_work * means->energy);
+    const OstSimd stiffening = OST_SIMD_SELECT(counts, 0.5 * *work, (OstSimd){0});
+    for (int slot = 0; slot < batch->count; slot++) {
+        largest->rotation = (*angle)[slot] > largest->rotation ? (*angle)[slot] : largest->rotation;
+        if (square[slot] > largest->strain * largest->strain) /* no eigenvalue exceeds the square root */
+            largest->strain = fmax(largest->strain, principal(means, slot));
+        largest->energy += energy[slot];
+        largest->stiffening += stiffening[slot];
+    }
 }
 
 void ost_linearity_add(const OstBatch *batch, const OstElement *element, OstFormulation formulation, const OstSimd *u,
                        const OstMeans *means, OstLinearity *largest)
 {
-    double angle[OST_SIMD_WIDTH];
-    OstSimd work;
-    find_angles(batch, element->nodes, formulation, u, means, angle, &work);
+    OstSimd angle, work;
+    find_angles(batch, element->nodes, formulation, u, means, &angle, &work);
     if (element->nodes > 4 && formulation == OST_FORMULATION_LINEAR)
         integrate_work(batch, element, u, means, &work);
-    for (int slot = 0; slot < batch->count; slot++)
-        add_tet(means, angle[slot], work[slot], slot, largest);
+    add_tets(batch, means, &angle, &work, largest);
 }
 
 OstStatus ost_linearity_agree(OstContext *ctx, const OstSupports *supports, const double *u, OstLinearity *largest)

@@ -144,15 +144,6 @@ static OstStatus move_stiffness(OstAnalysis *analysis, double t, const OstResult
 
 /* Adjoint problems of large rotations need the stiffness at the answer. The solver's hierarchy does for it, mostly; a
  * solve that finds it too old ends. */
-static OstStatus find_cut_off(OstResult *result)
-{
-    OstCutOff cut_off;
-    OST_TRY(ost_mesh_cut_off(result->mesh, &cut_off));
-    result->answer.cut_off = cut_off.lacking;
-    result->answer.filled_in = cut_off.filled;
-    return OST_SUCCESS;
-}
-
 static OstStatus move_for_adjoints(OstAnalysis *analysis, double t, const OstResult *result)
 {
     const OstProblem *problem = analysis->problem;
@@ -290,6 +281,15 @@ static OstStatus estimate_reactions(OstAnalysis *analysis, OstEstimate *estimate
             OST_TRY(renew_for_adjoints(analysis, t, result, &renewed));
         again &= renewed;
     }
+    return OST_SUCCESS;
+}
+
+static OstStatus find_cut_off(OstResult *result)
+{
+    OstCutOff cut_off;
+    OST_TRY(ost_mesh_cut_off(result->mesh, &cut_off));
+    result->answer.cut_off = cut_off.lacking;
+    result->answer.filled_in = cut_off.filled;
     return OST_SUCCESS;
 }
 

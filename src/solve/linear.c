@@ -63,7 +63,8 @@ static OstStatus prepare(OstAnalysis *analysis, OstVerdict *before)
         OST_TRY(prepare_stiffness(analysis, before));
     OstLinear *linear = analysis->work;
     ost_distributing_forget(problem);
-    OST_TRY(ost_problem_right_hand_side(problem, 1.0, linear->rhs));
+    if (!linear->has_rhs)
+        OST_TRY(ost_problem_right_hand_side(problem, 1.0, linear->rhs));
     if (linear->volume) {
         OST_TRY(ost_problem_volume(problem, 1.0, linear->volume));
         OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));

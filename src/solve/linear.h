@@ -12,6 +12,7 @@ typedef struct OstLinear {
     double *rhs, *v;              /* 3 × rows */
     double *volume, *pressure;    /* of a mixed form: right-hand side and pressures, ghosts included; else NULL */
     int enclosed;                 /* is only the shape of the pressure known (ost_guard_volume)? */
+    int has_rhs;                  /* of the load at hand */
     double rigid_motion;
 } OstLinear;
 

@@ -46,6 +46,7 @@ typedef struct OstLightTets {
     AboutLine line;
     double length, modulus; /* units in which lengths and moduli are kept; their product is that of the stiffness */
     double *u, *force;      /* of nodes, padded */
+    double *second;         /* u and force of the second of a pair; NULL: there was none */
 } OstLightTets;
 
 /* Three numbers of eight rows. */
@@ -104,38 +105,6 @@ static inline void find_stretch_at(const AboutLine *line, const Kept offset[OFFS
         const Eight part = share * d[i];
         tensor[i] = line->about_axis[i] + part * d[i];
         tensor[3 + i] = line->about_axis[3 + i] + part * d[(i + 1) % 3];
-    }
-}
-
-/* With the stretch tensor A, C : D = (1 - 2 shear) (A : D) A + shear (A D A + A D'A). Slopes are kept as D A then, that
- * is with `along` = A g in place of the gradient g. */
-typedef struct Linear {
-    Eight gradient[4][3], along[4][3], volume;
-    const Kept *elastic;
-    int by_stretch;
-} Linear;
-
-static inline void open_linear(const Eights *eights, const Kept *elastic, int by_stretch, Linear *tet)
-{
-    tet->elastic = elastic;
-    tet->by_stretch = by_stretch;
-    tet->volume = eights->volume;
-    for (int i = 0; i < 3; i++) {
-        for (int v = 1; v < 4; v++)
-            tet->gradient[v][i] = eights->gradient[v - 1][i];
-        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
-    }
-    for (int v = 0; v < 4; v++) {
-        const Kept *a = elastic;
-        const Eight *g = tet->gradient[v];
-        if (!by_stretch) {
-            for (int i = 0; i < 3; i++)
-                tet->along[v][i] = g[i];
-            continue;
-        }
-        tet->along[v][0] = a[0] * g[0] + a[3] * g[1] + a[5] * g[2];
-        tet->along[v][1] = a[3] * g[0] + a[1] * g[1] + a[4] * g[2];
-        tet->along[v][2] = a[5] * g[0] + a[4] * g[1] + a[2] * g[2];
     }
 }
 

@@ -3,17 +3,21 @@
 
 #include "accuracy/complement/blocks.h"
 #include "accuracy/light/light_data.h"
+#include "accuracy/light/pairs.h"
 #include "accuracy/light/quadratic.h"
 #include "assembly/batch.h"
 #include "core/error.h"
 #include "core/kernel.h"
 #include "core/memory.h"
+#include "core/together/together.h"
 #include "element/strain_batch.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { VERTICES = 4, EDGES = 6 };
+typedef Eight Number;
+#define FROM(kept) (kept)
+#include "accuracy/light/linear_kernel.h"
 
 /* The softest part of a stress must not drown in what single precision loses of the stiffest. */
 static const double most_ratio = 1e5;
@@ -27,6 +31,7 @@ void ost_light_tets_destroy(OstLightTets **tets)
     OST_FREE((*tets)->bend);
     OST_FREE((*tets)->u);
     OST_FREE((*tets)->force);
+    OST_FREE((*tets)->second);
     OST_FREE(*tets);
 }
 
@@ -292,98 +297,13 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
     }
 }
 
-/* --- forces of eight tets --- */
-
-/* slope += v g' */
-static inline void add_slope(const Eight v[3], const Eight g[3], Eight slope[9])
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            slope[3 * i + j] += v[i] * g[j];
-}
-
-static inline void find_stress(const Linear *tet, const Eight slope[9], Eight stress[6])
-{
-    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    const Kept *a = tet->elastic;
-    if (!tet->by_stretch) {
-        Eight strain[6];
-        for (int i = 0; i < 3; i++) {
-            const int next = (i + 1) % 3;
-            strain[i] = slope[4 * i];
-            strain[3 + i] = slope[3 * i + next] + slope[3 * next + i];
-        }
-        for (int p = 0; p < 6; p++) {
-            stress[p] = a[ost_upper[p][0]] * strain[0];
-            for (int q = 1; q < 6; q++)
-                stress[p] += a[ost_upper[p][q]] * strain[q];
-        }
-        return;
-    }
-    Eight half[9];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            half[3 * i + j] = a[place[i][0]] * slope[j] + a[place[i][1]] * slope[3 + j] + a[place[i][2]] * slope[6 + j];
-    const Eight shear = a[6], bulk = (1.0F - 2.0F * shear) * (slope[0] + slope[4] + slope[8]);
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        stress[p] = bulk * a[p] + shear * (half[3 * i + j] + half[3 * j + i]);
-    }
-}
-
-/* force += stress g */
-static inline void add_force(const Eight g[3], const Eight stress[6], Eight force[3])
-{
-    force[0] += g[0] * stress[0] + g[1] * stress[3] + g[2] * stress[5];
-    force[1] += g[0] * stress[3] + g[1] * stress[1] + g[2] * stress[4];
-    force[2] += g[0] * stress[5] + g[1] * stress[4] + g[2] * stress[2];
-}
-
-/* The stress is linear. With a quarter of the slopes, as a function is 4 L_a L_b; products of two coordinates have the
- * mean 1/10 or 1/20. */
-static inline void find_forces(const Linear *tet, Eight moved[VERTICES - 1][3], Eight w[EDGES][3],
-                               Eight at_nodes[VERTICES - 1][3], Eight at_functions[EDGES][3])
-{
-    Eight at_vertex[VERTICES][9], stress[VERTICES][6], sum[6], slope[9] = {{0.0F}};
-    for (int v = 1; v < VERTICES; v++)
-        add_slope(moved[v - 1], tet->along[v], slope);
-    for (int v = 0; v < VERTICES; v++)
-        for (int n = 0; n < 9; n++)
-            at_vertex[v][n] = 0.25F * slope[n];
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        add_slope(w[e], tet->along[b], at_vertex[a]);
-        add_slope(w[e], tet->along[a], at_vertex[b]);
-    }
-    const Eight weight = 0.8F * tet->volume; /* 4 × 4 / 20 */
-    for (int v = 0; v < VERTICES; v++)
-        find_stress(tet, at_vertex[v], stress[v]);
-    for (int p = 0; p < 6; p++) {
-        for (int v = 0; v < VERTICES; v++)
-            stress[v][p] *= weight;
-        sum[p] = stress[0][p] + stress[1][p] + stress[2][p] + stress[3][p];
-        for (int v = 0; v < VERTICES; v++)
-            stress[v][p] += sum[p];
-        sum[p] *= 1.25F;
-    }
-    memset(at_nodes, 0, (VERTICES - 1) * sizeof *at_nodes);
-    memset(at_functions, 0, EDGES * sizeof *at_functions);
-    for (int v = 1; v < VERTICES; v++)
-        add_force(tet->gradient[v], sum, at_nodes[v - 1]);
-    for (int e = 0; e < EDGES; e++) {
-        const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-        add_force(tet->gradient[b], stress[a], at_functions[e]);
-        add_force(tet->gradient[a], stress[b], at_functions[e]);
-    }
-}
-
 /* --- all tets --- */
 
-static void take(OstLightTets *tets, const double *u)
+static void pad(const OstLightTets *tets, const double *u, double *padded)
 {
     for (size_t n = 0; n < (size_t)tets->mesh->node_count; n++)
         for (size_t i = 0; i < 3; i++)
-            tets->u[4 * n + i] = u[3 * n + i];
+            padded[4 * n + i] = u[3 * n + i];
 }
 
 static inline void find_eight(const OstLightTets *tets, size_t k, const float *functions, int by_stretch,
@@ -411,20 +331,6 @@ OST_KERNEL static void apply_eights(OstLightTets *tets, const float *functions, 
     }
 }
 
-void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions)
-{
-    take(tets, u);
-    memset(tets->force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *tets->force);
-    memset(of_functions, 0, OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *of_functions);
-    if (tets->mesh->nodes_per_tet == 10)
-        ost_quadratic_eights_apply(tets, w, of_functions);
-    else
-        apply_eights(tets, w, of_functions);
-    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes; n++)
-        for (size_t i = 0; i < 3; i++)
-            force[3 * n + i] = tets->force[4 * n + i];
-}
-
 OST_KERNEL static void find_energies(const OstLightTets *tets, const float *functions, double *energy)
 {
     Eight moved[VERTICES - 1][3], w[EDGES][3], at_nodes[VERTICES - 1][3], at_functions[EDGES][3];
@@ -443,13 +349,100 @@ OST_KERNEL static void find_energies(const OstLightTets *tets, const float *func
     }
 }
 
+/* As ost_light_tets_apply, or, with an energy, as ost_light_tets_energy. */
+typedef struct Product {
+    const double *u;
+    const float *w;
+    double *force;
+    float *of_functions;
+    double *energy;
+} Product;
+
+static void open_product(const OstLightTets *tets, const Product *product, double *u, double *force)
+{
+    pad(tets, product->u, u);
+    if (product->energy)
+        return;
+    memset(force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *force);
+    memset(product->of_functions, 0,
+           OST_PER_FUNCTION * (size_t)tets->complement->count * sizeof *product->of_functions);
+}
+
+static void close_product(const OstLightTets *tets, const double *force, const Product *product)
+{
+    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes && !product->energy; n++)
+        for (size_t i = 0; i < 3; i++)
+            product->force[3 * n + i] = force[4 * n + i];
+}
+
+static void find_one(OstLightTets *tets, const Product *product)
+{
+    const int is_quadratic = tets->mesh->nodes_per_tet == 10;
+    open_product(tets, product, tets->u, tets->force);
+    if (product->energy)
+        (is_quadratic ? ost_quadratic_eights_energy : find_energies)(tets, product->w, product->energy);
+    else
+        (is_quadratic ? ost_quadratic_eights_apply : apply_eights)(tets, product->w, product->of_functions);
+    close_product(tets, tets->force, product);
+}
+
+static void find_pair(OstLightTets *tets, void *const *product)
+{
+    const int is_quadratic = tets->mesh->nodes_per_tet == 10;
+    const size_t numbers = 4 * (size_t)tets->mesh->node_count;
+    double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
+    Pair pair;
+    for (int k = 0; k < PAIR; k++) {
+        const Product *one = product[k];
+        open_product(tets, one, u[k], force[k]);
+        pair.u[k] = u[k];
+        pair.w[k] = one->w;
+        pair.force[k] = force[k];
+        pair.of_functions[k] = one->of_functions;
+        pair.energy[k] = one->energy;
+    }
+    if (pair.energy[0])
+        (is_quadratic ? ost_quadratic_pairs_energy : ost_linear_pairs_energy)(tets, &pair);
+    else
+        (is_quadratic ? ost_quadratic_pairs_apply : ost_linear_pairs_apply)(tets, &pair);
+    for (int k = 0; k < PAIR; k++)
+        close_product(tets, force[k], product[k]);
+}
+
+/* Two by two. Without room for that one after the other. */
+static OstStatus find_all(OstLightTets *tets, int count, void *const *product)
+{
+    if (count > 1 && !tets->second)
+        (void)OST_NEW(tets->mesh->ctx, &tets->second, 8 * (size_t)tets->mesh->node_count);
+    int k = 0;
+    for (; k + PAIR <= count && tets->second; k += PAIR)
+        find_pair(tets, product + k);
+    for (; k < count; k++)
+        find_one(tets, product[k]);
+    return OST_SUCCESS;
+}
+
+/* OstServe. */
+static OstStatus apply_all(void *tets, int count, void *const *product)
+{
+    return find_all(tets, count, product);
+}
+
+static OstStatus find_all_energies(void *tets, int count, void *const *product)
+{
+    return find_all(tets, count, product);
+}
+
+void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions)
+{
+    Product product = {.u = u, .w = w, .force = force, .of_functions = of_functions};
+    (void)ost_together(tets->mesh->ctx, apply_all, OST_MOST_TOGETHER, tets, &product);
+}
+
 void ost_light_tets_energy(OstLightTets *tets, const double *u, const float *w, double *energy)
 {
-    take(tets, u);
-    if (tets->mesh->nodes_per_tet == 10)
-        ost_quadratic_eights_energy(tets, w, energy);
-    else
-        find_energies(tets, w, energy);
+    Product product = {.u = u, .w = w, .energy = energy};
+    (void)ost_together(tets->mesh->ctx, find_all_energies, OST_MOST_TOGETHER, tets, &product);
 }
 
 /* --- the functions' own blocks --- */

@@ -2,16 +2,10 @@
 #include "accuracy/light/quadratic.h"
 
 #include "core/kernel.h"
-#include "element/quadrature.h"
-#include "element/strain_batch.h"
 
 typedef Eight Number;
-typedef float Scalar;
-#include "accuracy/light/straight_kernel.h"
-
-enum { NODES = 10, FUNCTIONS = 10 };
-
-typedef int32_t Bits __attribute__((vector_size(WIDTH * sizeof(int32_t))));
+#define FROM(kept) (kept)
+#include "accuracy/light/quadratic_kernel.h"
 
 /* --- reading and adding --- */
 
@@ -50,16 +44,6 @@ static inline void add_to_nodes(OstLightTets *tets, const Eights *eights, Eight 
     }
 }
 
-/* The sign bits of edges' functions that tets take the other way (complement->turned). */
-static inline void find_turns(const OstLightTets *tets, const Eights *eights, Bits turns[EDGES])
-{
-    Bits turned;
-    for (int slot = 0; slot < WIDTH; slot++)
-        turned[slot] = tets->complement->turned[eights->tet[slot]];
-    for (int e = 0; e < EDGES; e++)
-        turns[e] = (turned << (31 - e)) & INT32_MIN;
-}
-
 static inline void turn(const Bits *turns, Eight of_function[3])
 {
     for (int i = 0; i < 3; i++)
@@ -92,96 +76,13 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
     }
 }
 
-/* --- forces of eight tets --- */
-
-static inline void open_straight(const Eights *eights, const Kept *bend, Straight *tet)
-{
-    tet->volume = eights->volume;
-    memcpy(tet->gradient[1], eights->gradient, sizeof eights->gradient);
-    for (int i = 0; i < 3; i++)
-        tet->gradient[0][i] = -(tet->gradient[1][i] + tet->gradient[2][i] + tet->gradient[3][i]);
-    memcpy(tet->bend, bend, sizeof tet->bend);
-}
-
-/* stress = C strain */
-static inline void find_stress(const Kept *c, const Eight strain[6], Eight stress[6])
-{
-    for (int p = 0; p < 6; p++) {
-        stress[p] = c[ost_upper[p][0]] * strain[0];
-        for (int q = 1; q < 6; q++)
-            stress[p] += c[ost_upper[p][q]] * strain[q];
-    }
-}
-
-/* As ost_stretch_stress (element/strain_batch.h). */
-static inline void find_stretch_stress(const Eight a[6], float shear, const Eight strain[6], Eight stress[6])
-{
-    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    Eight half[9], bulk = {0.0F};
-    for (int p = 0; p < 6; p++)
-        bulk += a[p] * strain[p];
-    bulk *= 1.0F - 2.0F * shear;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            half[3 * i + j] = 2.0F * a[place[i][j]] * strain[place[j][j]];
-            for (int k = 0; k < 3; k++) /* engineering shear */
-                if (k != j)
-                    half[3 * i + j] += a[place[i][k]] * strain[place[k][j]];
-            half[3 * i + j] *= shear;
-        }
-    for (int p = 0; p < 6; p++) {
-        const int i = p % 3, j = p < 3 ? i : (i + 1) % 3;
-        stress[p] = bulk * a[p] + half[3 * i] * a[place[0][j]] + half[3 * i + 1] * a[place[1][j]] +
-                    half[3 * i + 2] * a[place[2][j]];
-    }
-}
-
-static inline void integrate(const Straight *tet, const Kept *c, Eight strain[PRODUCTS][6], Eight moment[PRODUCTS][6])
-{
-    Eight stress[PRODUCTS][6];
-    for (int k = 0; k < PRODUCTS; k++)
-        find_stress(c, strain[k], stress[k]);
-    integrate_stress(tet, stress, moment);
-}
-
-/* With axes about a line: by quadrature. */
-static inline void integrate_points(const Straight *tet, const AboutLine *line, const Kept *offset,
-                                    Eight strain[PRODUCTS][6], Eight moment[PRODUCTS][6])
-{
-    memset(moment, 0, PRODUCTS * sizeof *moment);
-    for (int q = 0; q < ost_tet_degree5.count; q++) {
-        const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
-        const Eight weight = (float)point->weight * tet->volume;
-        Eight here[6], stress[6], tensor[6];
-        float product[PRODUCTS];
-        find_products(point->at, product);
-        find_strain_at(product, strain, here);
-        find_stretch_at(line, offset, point->at, tensor);
-        find_stretch_stress(tensor, line->shear, here, stress);
-        add_moments(product, &weight, stress, moment);
-    }
-}
-
 static inline void find_eight(const OstLightTets *tets, size_t k, const float *functions, const Bits turns[EDGES],
                               Eight moved[NODES][3], Eight w[FUNCTIONS][3], Eight at_nodes[NODES][3],
                               Eight at_functions[FUNCTIONS][3])
 {
-    const Eights *eights = &tets->eights[k];
-    const Kept *elastic = tets->elastic + numbers_kept[tets->keeping] * k;
-    Eight strain[PRODUCTS][6], moment[PRODUCTS][6];
-    Straight tet;
-    open_straight(eights, tets->bend + BENDS * k, &tet);
-    read_nodes(tets, eights, moved);
-    read_functions(tets, eights, functions, turns, w);
-    memset(strain, 0, sizeof strain);
-    add_own_strain(&tet, moved[0], strain);
-    add_surplus_strain(&tet, w[0], strain);
-    if (tets->keeping == KEEP_OFFSETS)
-        integrate_points(&tet, &tets->line, elastic, strain, moment);
-    else
-        integrate(&tet, elastic, strain, moment);
-    find_own_forces(&tet, moment, at_nodes[0]);
-    find_surplus_forces(&tet, moment, at_functions[0]);
+    read_nodes(tets, &tets->eights[k], moved);
+    read_functions(tets, &tets->eights[k], functions, turns, w);
+    find_forces(tets, k, moved, w, at_nodes, at_functions);
 }
 
 /* --- all tets --- */

@@ -120,6 +120,7 @@ static OstStatus find_products(OstContext *ctx, int count, Member *const *member
     const size_t unknowns = 3 * (size_t)member[0]->system.matrix->rows;
     for (int k = 0; k < count; k++) {
         OST_TRY(ost_problem_right_hand_side(member[k]->problem, 1.0, member[k]->linear.rhs));
+        member[k]->linear.has_rhs = 1;
         for (int j = 0; j <= k; j++)
             for (size_t i = 0; i < unknowns; i++)
                 product[count * k + j] += member[k]->linear.rhs[i] * member[j]->linear.rhs[i];
