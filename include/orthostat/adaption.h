@@ -17,13 +17,15 @@ typedef struct OstAdaptLimits {
 typedef struct OstAdaptLevel {
     int order;
     OstGlobal tets, unknowns;
-    OstAnswerError error;  /* estimated */
-    double value, off;     /* of the quantity asked about: its value, and by how much the exact one is larger */
-    double shares;         /* sum of the tets' shares of that */
-    double relative_error; /* of what the case asks about: that quantity, or the norm of the energy */
-    int by_norm;           /* the norm's in place of that quantity's: whether linear theory does is open on this mesh */
-    int is_measured;       /* 1: the last two potentials tell how much the estimate missed */
-    double missed;         /* what it was multiplied by, 1 or more */
+    OstAnswerError error;       /* estimated */
+    double value, off;          /* of the quantity asked about: its value, and by how much the exact one is larger */
+    double shares;              /* sum of the tets' shares of that */
+    double relative_error;      /* of what the case asks about: that quantity, or the norm of the energy */
+    double most_relative_error; /* of that quantity, by what its value with its error added has changed by since the
+                                   level before; INFINITY: not known */
+    int by_norm;     /* the norm's in place of that quantity's: whether linear theory does is open on this mesh */
+    int is_measured; /* 1: the last two potentials tell how much the estimate missed */
+    double missed;   /* what it was multiplied by, 1 or more */
     double strain_energy, potential; /* potential: that less the work of the loads */
     double volume;
     int iterations;

@@ -35,6 +35,16 @@ static int is_clear(const OstSolveStop *stop, double size, double error)
            sqrt(fmax(size * size - of_mesh * of_mesh, 0.0)) >= clear_of_error * error;
 }
 
+/* The error of a watched displacement is the product of that of the answer and that of its adjoint problem, both as a
+ * share of the whole about alike: so the share of it that the equations may leave is that of the norm, times the error.
+ */
+double ost_stop_share(const OstProblem *problem, double share, const OstAnswerError *answer)
+{
+    const int of_quantity = problem->scene && problem->scene->c->interest > 0 &&
+                            problem->scene->c->watches[problem->scene->c->interest - 1].kind == OST_WATCH_DISPLACEMENT;
+    return of_quantity ? share * answer->relative : share;
+}
+
 /* The error of the equations to go on to; 0 where the discretisation error is not known. */
 static double next_error(OstSolveStop *stop, double error)
 {
@@ -46,7 +56,8 @@ static double next_error(OstSolveStop *stop, double error)
     if (!answer->known)
         return 0.0;
     stop->settled = error <= small_share * answer->energy_norm;
-    return fmin((stop->settled ? stop->share : small_share) * answer->energy_norm, largest_error * size);
+    const double share = stop->settled ? ost_stop_share(stop->problem, stop->share, answer) : small_share;
+    return fmin(share * answer->energy_norm, largest_error * size);
 }
 
 /* Is the energy of the solver's own unknowns that of the answer, as loads alone act? */

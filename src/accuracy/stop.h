@@ -27,6 +27,10 @@ OstStatus ost_solve_stop_open(const OstProblem *problem, OstSolver *solver, doub
                               const OstSurplus *surplus, OstAnswerError *answer, OstSolveStop *stop);
 void ost_solve_stop_close(OstSolveStop *stop);
 
+/* Local. The share of the discretisation error that the equations may leave: `share`, or less where the case asks for
+ * the error of a displacement. */
+double ost_stop_share(const OstProblem *problem, double share, const OstAnswerError *answer);
+
 /* Local. The next solve goes on from where one was stopped, to this error, and looks at the discretisation's again. */
 void ost_solve_stop_tighten(OstSolveStop *stop, double error);
 

@@ -41,6 +41,9 @@ static const double far_beyond = 100.0, small_error = 0.02, patience = 60.0;
 /* An estimate that was measured by what potentials fell is to be within this share. */
 static const double safety_of_measured = 0.9, aim_of_measured = 0.75;
 
+/* So is one of a quantity, where its values on two levels tell how much it may miss. */
+static const double safety_of_two = 0.95;
+
 /* Errors that are more alike than this say little by their difference; volumes may change by such a part of what the
  * energy does; what contradicts the estimates by more is no measure of them. */
 static const double most_alike = 0.9, flat = 0.05, least_missed = 0.7, most_missed = 2.0;
@@ -165,6 +168,25 @@ static double safety_of(const OstAdaptLevel *level)
     return level->is_measured ? safety_of_measured : safety;
 }
 
+/* The largest that the error of a quantity may be, by two levels. A value with its error added is far nearer to the
+ * exact one, and is hardly off by more than what it has changed by since the level before. INFINITY where that is not
+ * known: in parts of some errors the sign is not. */
+static double most_relative_error(const OstAdaption *adaption, const OstInterestError *interest)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1], *before = last - 1;
+    if (adaption->count < 2 || !interest->watch || interest->watch->kind == OST_WATCH_STRAIN_ENERGY ||
+        interest->doubt > 0.0 || before->by_norm || !(last->shares > 0.0))
+        return INFINITY;
+    const double change = last->value + last->off - before->value - before->off;
+    return last->relative_error * fmax(fabs(last->off + change) / last->shares, 1.0);
+}
+
+static int is_met(const OstAdaption *adaption, const OstAdaptLevel *level)
+{
+    return error_of(level) <= safety_of(level) * adaption->request ||
+           (!level->by_norm && level->most_relative_error <= safety_of_two * adaption->request);
+}
+
 /* By how much the unknowns of the last level are to grow to meet the request, at a rate. */
 static double growth_to_meet(const OstAdaption *adaption, double rate)
 {
@@ -200,7 +222,7 @@ static int is_too_stiff_to_judge(const OstResult *result)
  */
 static void doubt_linear_theory(const OstAdaption *adaption, OstResult *result, OstAdaptLevel *level)
 {
-    if (!adaption->watch || error_of(level) > safety_of(level) * adaption->request || !is_too_stiff_to_judge(result))
+    if (!adaption->watch || !is_met(adaption, level) || !is_too_stiff_to_judge(result))
         return;
     level->by_norm = 1;
     level->relative_error = result->answer.relative;
@@ -238,6 +260,7 @@ static OstStatus note_level(OstAdaption *adaption, OstStage *stage, double start
                              .iterations = result->solve.iterations,
                              .bytes = (double)ost_ledger_peak_bytes(adaption->ctx)};
     take_norm(adaption, result, level);
+    level->most_relative_error = level->by_norm ? INFINITY : most_relative_error(adaption, &result->interest);
     if (level->error.known)
         add_missed(adaption, stage);
     if (level->error.known)
@@ -358,7 +381,7 @@ static OstStatus stop_out_of_reach(OstAdaption *adaption, double start, int *ove
 static int is_over(OstAdaption *adaption)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    const int met = error_of(last) <= safety_of(last) * adaption->request;
+    const int met = last->error.known && is_met(adaption, last);
     const int over = !last->error.known || met || adaption->count == OST_MOST_ADAPT_LEVELS;
     if (over)
         adaption->end = !last->error.known ? OST_ADAPT_NO_ESTIMATE : met ? OST_ADAPT_MET : OST_ADAPT_OUT_OF_LEVELS;

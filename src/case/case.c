@@ -151,13 +151,14 @@ static OstStatus settle_large_rotation(const OstYaml *yaml, const OstYamlKey *la
 /* Until the accuracy section gives one. */
 static const double not_given = -1.0;
 
-/* What verify measures is the discretisation error, to many digits. The error of a quantity of interest is much smaller
- * than that in the norm of the energy, by which solves stop. */
+/* What verify measures is the discretisation error, to many digits. A quantity of interest is to be known better than
+ * what solves stop by; where an accuracy of a displacement is asked for, they stop by that. */
 double ost_case_stop_fraction(const OstCase *c)
 {
     const int many_digits = c->verify && !c->asks_error;
-    const int of_energy = c->interest == 0 || c->watches[c->interest - 1].kind == OST_WATCH_STRAIN_ENERGY;
-    return many_digits || drives(c) || !of_energy ? 0.0 : 0.1;
+    const OstWatchKind kind = c->interest == 0 ? OST_WATCH_STRAIN_ENERGY : c->watches[c->interest - 1].kind;
+    const int stops = kind == OST_WATCH_STRAIN_ENERGY || (kind == OST_WATCH_DISPLACEMENT && c->asks_error);
+    return many_digits || drives(c) || !stops ? 0.0 : 0.1;
 }
 
 /* Steps of a path follow each other; load cases do not. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "accuracy/stop.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
@@ -160,8 +161,8 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
     if (status == OST_SUCCESS && result->answer.known && ost_reactions_allow_stop(problem))
-        ost_newton_stop_at(newton, analysis->options.algebraic_fraction, &result->answer,
-                           result->stress_surplus || result->node_stress_surplus);
+        ost_newton_stop_at(newton, ost_stop_share(problem, analysis->options.algebraic_fraction, &result->answer),
+                           &result->answer, result->stress_surplus || result->node_stress_surplus);
     result->answer = (OstAnswerError){0}; /* that of the linear answer */
     if (status == OST_SUCCESS) {
         status = ost_nonlinear_advance(newton, result->newton.linear_strain, 1.0, &state);
