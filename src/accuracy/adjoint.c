@@ -61,6 +61,7 @@ static void take_strain(const OstInterest *interest, OstMaterialField *field)
 {
     field->region_eigenstrain = NULL;
     field->tet_eigenstrain = interest->strain;
+    field->eigenstrain_places = 1;
     field->tet_eigenstrain_in_world = interest->strain_in_world;
 }
 

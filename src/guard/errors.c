@@ -44,10 +44,14 @@ static void add_eigenstrains(void *data, const OstBatch *batch, const OstElement
                              const OstMeans *means)
 {
     double *sums = data;
+    const OstElasticity *elasticity = &batch->elasticity;
     add_stresses(&sums[EIGENSTRESS], batch, element, u, means);
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6; p++)
-            sums[EIGENSTRAIN] += batch->elasticity.e0[0][p][slot] * batch->elasticity.e0[0][p][slot];
+    for (int point = 0; point < elasticity->points; point++)
+        for (int slot = 0; slot < batch->count; slot++)
+            for (int p = 0; p < 6; p++) {
+                const double strain = elasticity->e0[point][p][slot];
+                sums[EIGENSTRAIN] += strain * strain / elasticity->points;
+            }
 }
 
 static double square_of(const double vector[3])

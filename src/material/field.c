@@ -24,22 +24,33 @@ void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double sti
     } else
         memcpy(stiffness, field->region_stiffness + 36 * (size_t)region, 36 * sizeof(double));
     for (int i = 0; i < 36 && field->tet_scale; i++)
-        stiffness[i] *= field->tet_scale[tet];
+        stiffness[i] *= ost_field_scale(field, tet, NULL);
+}
+
+static OstStatus set_scale(OstMaterialField *field, size_t count, int places, const double *factors)
+{
+    OST_FREE(field->tet_scale);
+    field->scale_places = places;
+    if (!factors)
+        return OST_SUCCESS;
+    for (size_t n = 0; n < count; n++)
+        if (!(factors[n] > 0.0) || !isfinite(factors[n]))
+            return OST_RAISE(field->ctx, OST_INVALID_INPUT, "factor %lld of the stiffness is %g, expected one above 0",
+                             (long long)n, factors[n]);
+    OST_TRY(OST_NEW(field->ctx, &field->tet_scale, count));
+    if (count > 0)
+        memcpy(field->tet_scale, factors, count * sizeof *factors);
+    return OST_SUCCESS;
 }
 
 OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const double *factors)
 {
-    OST_FREE(field->tet_scale);
-    if (!factors)
-        return OST_SUCCESS;
-    for (OstLocal t = 0; t < tet_count; t++)
-        if (!(factors[t] > 0.0) || !isfinite(factors[t]))
-            return OST_RAISE(field->ctx, OST_INVALID_INPUT, "factor %lld of the stiffness is %g, expected one above 0",
-                             (long long)t, factors[t]);
-    OST_TRY(OST_NEW(field->ctx, &field->tet_scale, tet_count));
-    if (tet_count > 0)
-        memcpy(field->tet_scale, factors, (size_t)tet_count * sizeof *factors);
-    return OST_SUCCESS;
+    return set_scale(field, (size_t)tet_count, 1, factors);
+}
+
+OstStatus ost_field_set_vertex_scale(OstMaterialField *field, OstLocal tet_count, const double *factors)
+{
+    return set_scale(field, 4 * (size_t)tet_count, 4, factors);
 }
 
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])

@@ -43,20 +43,45 @@ struct OstMaterialField {
      * is not split; not owned. NULL: 0 everywhere. */
     const double *pressure;
 
-    double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
+    /* Of each tet, or at each of its four vertices, which are its `places`: C is that of the region times this
+     * (ost_field_set_scale); NULL: 1. */
+    double *tet_scale;
+    int scale_places;
 
     double *region_eigenstrain;   /* region_count × 6, in material axes; NULL if no region has one */
-    double *tet_eigenstrain;      /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
+    double *tet_eigenstrain;      /* tet_count × places × 6, added to the region's; NULL if none was given */
+    int eigenstrain_places;       /* 1 or 4, as of the scale */
     int tet_eigenstrain_in_world; /* is that in world axes? */
 };
 
 /* Local. The first region that is incompressible (nu = 1/2), or -1. */
 int ost_field_incompressible(const OstMaterialField *field);
 
-/* Local. The factor of a tet's stiffness. */
-static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
+/* Local. The share of a place in what a tet has at barycentric coordinates `at`; NULL: in its mean. */
+static inline double ost_field_share(size_t places, const double at[4], size_t place)
 {
-    return field->tet_scale ? field->tet_scale[tet] : 1.0;
+    return places == 1 ? 1.0 : at ? at[place] : 0.25;
+}
+
+/* Local. The factor of a tet's stiffness at barycentric coordinates; NULL: its mean. */
+static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet, const double at[4])
+{
+    const size_t places = (size_t)field->scale_places;
+    double sum = 0.0;
+    for (size_t place = 0; place < places && field->tet_scale; place++)
+        sum += ost_field_share(places, at, place) * field->tet_scale[places * (size_t)tet + place];
+    return field->tet_scale ? sum : 1.0;
+}
+
+/* Local. Does C, or the eigenstrain, differ between the vertices of tets? */
+static inline int ost_field_scales_within(const OstMaterialField *field)
+{
+    return field->tet_scale && field->scale_places > 1;
+}
+
+static inline int ost_field_strains_within(const OstMaterialField *field)
+{
+    return field->tet_eigenstrain && field->eigenstrain_places > 1;
 }
 
 /* Local. Does any tet have an eigenstrain? */
@@ -65,9 +90,10 @@ int ost_field_is_eigenstrained(const OstMaterialField *field);
 /* Local. A symmetric tensor 11 22 33 12 23 31 along axes (rows). */
 void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
 
-/* Local. Adds `share` of a tet's eigenstrain to `strain`, in the world axes that the material's `axes` are given in. */
-void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
-                               double strain[6]);
+/* Local. Adds `share` of a tet's eigenstrain at barycentric coordinates (NULL: its mean) to `strain`, in the world axes
+ * that the material's `axes` are given in. */
+void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, const double at[4], double share,
+                               const double axes[9], double strain[6]);
 
 /* Local. C of a tet in world axes. */
 void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double stiffness[36]);

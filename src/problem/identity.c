@@ -55,7 +55,8 @@ static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLoca
     if (field->region_eigenstrain)
         hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
     if (field->tet_eigenstrain)
-        hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
+        hash = ost_hash(hash, 6 * (size_t)field->eigenstrain_places * (size_t)tets * sizeof(double),
+                        field->tet_eigenstrain);
     if (field->tet_directions)
         hash = ost_hash(hash, OST_DIRECTIONS * (size_t)tets * sizeof(float), field->tet_directions);
     return field->tet_turn ? ost_hash(hash, 4 * (size_t)tets * sizeof(double), field->tet_turn) : hash;
@@ -180,7 +181,8 @@ static void add_tets(OstProblemIdentity *identity, const OstProblem *problem)
         if (field->region_eigenstrain)
             add(identity, OST_MARK_MATERIAL, label, 9, 6, field->region_eigenstrain + 6 * region);
         if (field->tet_eigenstrain)
-            add(identity, OST_MARK_MATERIAL, label, 15, 6, field->tet_eigenstrain + 6 * (size_t)t);
+            add(identity, OST_MARK_MATERIAL, label, 15, 6 * field->eigenstrain_places,
+                field->tet_eigenstrain + 6 * (size_t)field->eigenstrain_places * (size_t)t);
     }
 }
 

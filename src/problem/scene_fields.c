@@ -13,13 +13,13 @@
 /* What the mesh file states tet by tet, or at vertices: axes, moduli, eigenstrains. */
 
 /* Directions at the vertices are kept where axes vary within the tets, which are or become quadratic; e1, e2 and e3
- * always, as their mean is no frame. */
+ * always, as their mean is no frame, and numbers, as finer tets and the estimate of the error want them. */
 static unsigned use_of(const OstCase *c, const OstCaseField *asked, const OstMeshChunk *chunk)
 {
     const int quadratic = c->order == 2 || (c->order == 0 && (chunk->nodes_per_tet == 10 || c->asks_error));
     if (asked->use == OST_CASE_FIELD_OF_DIRECTIONS)
         return OST_FIELD_OF_DIRECTIONS | (quadratic ? OST_FIELD_AT_VERTICES : 0U);
-    return asked->use == OST_CASE_FIELD_OF_AXES ? OST_FIELD_AT_VERTICES : OST_FIELD_OF_NUMBERS;
+    return OST_FIELD_AT_VERTICES;
 }
 
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
@@ -38,7 +38,7 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* A field's numbers of a tet; NULL if the mesh has none of the name. */
+/* A field's numbers of a tet, or of its vertices one after the other; NULL if the mesh has none of the name. */
 static const double *field_of(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width)
 {
     const int field = mesh->tet_field ? ost_case_find_field(c, name) : -1;
@@ -172,53 +172,77 @@ double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, cons
     const int field = chunk->tet_field ? ost_case_find_field(c, modulus->field) : -1;
     if (field < 0 || field >= chunk->fields.count)
         return 1.0;
-    const size_t row = (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
-    return modulus_of_number(modulus, chunk->tet_field[row + (size_t)chunk->fields.first[field]]);
+    const double *row = chunk->tet_field + (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
+    const int places = chunk->fields.at_vertices[field] ? 4 : 1;
+    double sum = 0.0;
+    for (int place = 0; place < places; place++)
+        sum += modulus_of_number(modulus, row[chunk->fields.first[field] + place]);
+    return sum / places;
 }
 
-static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, double *value)
+/* Of the tet, or at its vertices: of `places`, as many as all fields take. */
+static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, int places,
+                                double *values)
 {
-    const double *number = NULL;
-    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &number));
-    *value = modulus_of_number(modulus, *number);
-    if (*value > 0.0 && isfinite(*value) && isfinite(*number))
-        return OST_SUCCESS;
-    return OST_RAISE(
-        scene->ctx, OST_INVALID_INPUT,
-        "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller", *number,
-        *value);
+    const int at_vertices = is_at_vertices(scene, modulus->field);
+    const double *numbers = NULL;
+    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &numbers));
+    for (int place = 0; place < places; place++) {
+        const double number = numbers[at_vertices ? place : 0];
+        values[place] = modulus_of_number(modulus, number);
+        if (!(values[place] > 0.0 && isfinite(values[place]) && isfinite(number)))
+            return OST_RAISE(
+                scene->ctx, OST_INVALID_INPUT,
+                "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller",
+                number, values[place]);
+    }
+    return OST_SUCCESS;
 }
 
-OstStatus ost_scene_set_modulus(OstScene *scene)
+/* `factor`: places for each tet, 1 in regions whose modulus is a number. */
+static OstStatus find_factors(const OstScene *scene, int places, double *factor)
 {
     const OstMesh *mesh = scene->mesh;
-    double *factor = NULL;
-    int region = -1, any = 0;
     const OstCaseMaterial *stated = NULL;
-    for (int m = 0; m < scene->c->material_count; m++)
-        any |= scene->c->materials[m].modulus.field != NULL;
-    if (!any)
-        return OST_SUCCESS;
-    OstStatus status = OST_NEW(scene->ctx, &factor, mesh->tet_count);
-    for (OstLocal t = 0; t < mesh->tet_count && status == OST_SUCCESS; t++) {
-        factor[t] = 1.0;
+    int region = -1;
+    for (OstLocal t = 0; t < mesh->tet_count; t++, factor += places) {
+        for (int place = 0; place < places; place++)
+            factor[place] = 1.0;
         if (mesh->tet_region[t] != region) {
             region = mesh->tet_region[t];
             stated = ost_case_material_of(scene->c, mesh->regions.name[region]);
         }
         if (!stated || !stated->modulus.field)
             continue;
-        if (modulus_of_tet(scene, &stated->modulus, t, &factor[t]) != OST_SUCCESS)
-            status = raise_for_tet(scene, stated->modulus.place, stated->modulus.field, t);
+        if (modulus_of_tet(scene, &stated->modulus, t, places, factor) != OST_SUCCESS)
+            return raise_for_tet(scene, stated->modulus.place, stated->modulus.field, t);
     }
-    OST_THEN(ost_field_set_scale(scene->field, mesh->tet_count, factor));
+    return OST_SUCCESS;
+}
+
+OstStatus ost_scene_set_modulus(OstScene *scene)
+{
+    const OstLocal tets = scene->mesh->tet_count;
+    double *factor = NULL;
+    int any = 0, places = 1;
+    for (int m = 0; m < scene->c->material_count; m++) {
+        const char *name = scene->c->materials[m].modulus.field;
+        any |= name != NULL;
+        places = is_at_vertices(scene, name) ? 4 : places;
+    }
+    if (!any)
+        return OST_SUCCESS;
+    OstStatus status = OST_NEW(scene->ctx, &factor, (size_t)places * (size_t)tets);
+    OST_THEN(find_factors(scene, places, factor));
+    OST_THEN(places > 1 ? ost_field_set_vertex_scale(scene->field, tets, factor)
+                        : ost_field_set_scale(scene->field, tets, factor));
     OST_FREE(factor);
     return status;
 }
 
 /* --- eigenstrains --- */
 
-/* The eigenstrain that a tet's numbers stand for: of all directions, along the axes, with the shears, or a tensor. */
+/* The eigenstrain that numbers stand for: of all directions, along the axes, with the shears, or a tensor. */
 static void strain_of(const OstCaseMaterial *stated, int width, const double *field, double strain[6])
 {
     for (int p = 0; p < 6; p++)
@@ -231,13 +255,14 @@ static void strain_of(const OstCaseMaterial *stated, int width, const double *fi
         strain[p] = field[0] * stated->eigenstrain[p];
 }
 
-static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated, int width,
+/* `width` numbers at each of `places`. */
+static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated, int width, int places,
                                const double *field)
 {
     if (stated->eigen_per_unit && width != 1)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "the field '%s' has %d numbers a tet; a change is one",
                          stated->eigen_field, width);
-    for (int k = 0; k < width; k++)
+    for (int k = 0; k < width * places; k++)
         if (!isfinite(field[k]))
             return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                              "the field '%s' has no number for tet %lld of region '%s', which it is asked for",
@@ -246,25 +271,37 @@ static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseM
     return OST_SUCCESS;
 }
 
-/* Of the tets in regions whose eigenstrain is a field; in memory from the context. */
-static OstStatus eigenstrain_of_tets(const OstCase *c, const OstMesh *mesh, double **strain)
+static OstStatus eigenstrain_of_tet(const OstScene *scene, const OstCaseMaterial *stated, OstLocal tet, int places,
+                                    double *strain)
 {
+    const int given = is_at_vertices(scene, stated->eigen_field) ? 4 : 1;
+    int width = 0;
+    const double *field = field_of(scene->c, scene->mesh, stated->eigen_field, tet, &width);
+    if (!field)
+        return OST_SUCCESS;
+    width /= given;
+    OST_TRY(check_numbers(scene->mesh, tet, stated, width, given, field));
+    for (int place = 0; place < places; place++)
+        strain_of(stated, width, field + (given > 1 ? width * place : 0), strain + 6 * place);
+    return OST_SUCCESS;
+}
+
+/* Of the tets in regions whose eigenstrain is a field, at each of `places`; in memory from the context. */
+static OstStatus eigenstrain_of_tets(const OstScene *scene, int places, double **strain)
+{
+    const OstMesh *mesh = scene->mesh;
     const OstCaseMaterial *stated = NULL;
+    const size_t numbers = 6 * (size_t)places;
     int region = -1;
-    OST_TRY(OST_NEW(mesh->ctx, strain, 6 * (size_t)mesh->tet_count));
+    OST_TRY(OST_NEW(mesh->ctx, strain, numbers * (size_t)mesh->tet_count));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
         if (mesh->tet_region[t] != region) {
             region = mesh->tet_region[t];
-            stated = ost_case_material_of(c, mesh->regions.name[region]);
+            stated = ost_case_material_of(scene->c, mesh->regions.name[region]);
         }
-        if (!stated || !stated->eigen_field)
-            continue;
-        int width = 0;
-        const double *field = field_of(c, mesh, stated->eigen_field, t, &width);
-        if (!field)
-            continue;
-        OST_TRY(ost_case_located(c, stated->eigen_place, check_numbers(mesh, t, stated, width, field)));
-        strain_of(stated, width, field, *strain + 6 * (size_t)t);
+        if (stated && stated->eigen_field)
+            OST_TRY(ost_case_located(scene->c, stated->eigen_place,
+                                     eigenstrain_of_tet(scene, stated, t, places, *strain + numbers * (size_t)t)));
     }
     return OST_SUCCESS;
 }
@@ -273,16 +310,19 @@ OstStatus ost_scene_set_eigenstrain(OstScene *scene)
 {
     const OstNames *regions = &scene->mesh->regions;
     double *of_regions = NULL, *of_tets = NULL;
+    int places = 1;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(scene->ctx, &of_regions, 6 * regions->count));
     for (int r = 0; r < regions->count; r++) {
         const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
         if (stated && !stated->eigen_field)
             memcpy(of_regions + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
+        places = stated && is_at_vertices(scene, stated->eigen_field) ? 4 : places;
     }
     if (scene->mesh->tet_field)
-        OST_TRY_DONE(eigenstrain_of_tets(scene->c, scene->mesh, &of_tets));
-    status = ost_field_set_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets);
+        OST_TRY_DONE(eigenstrain_of_tets(scene, places, &of_tets));
+    status = places > 1 ? ost_field_set_vertex_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets)
+                        : ost_field_set_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets);
 done:
     OST_FREE(of_regions, of_tets);
     return status;
