@@ -161,9 +161,12 @@ OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *m
 
 /* --- moduli --- */
 
-static double modulus_of_number(const OstModulusField *modulus, double number)
+/* factor, power, least (material/field_data.h) */
+static void law_of(const OstModulusField *modulus, double law[3])
 {
-    return fmax(modulus->factor * pow(number, modulus->power), modulus->least);
+    law[0] = modulus->factor;
+    law[1] = modulus->power;
+    law[2] = modulus->least;
 }
 
 double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, const OstModulusField *modulus,
@@ -174,47 +177,64 @@ double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, cons
         return 1.0;
     const double *row = chunk->tet_field + (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
     const int places = chunk->fields.at_vertices[field] ? 4 : 1;
-    double sum = 0.0;
+    double law[3], sum = 0.0;
     for (int place = 0; place < places; place++)
-        sum += modulus_of_number(modulus, row[chunk->fields.first[field] + place]);
-    return sum / places;
+        sum += row[chunk->fields.first[field] + place];
+    law_of(modulus, law);
+    return ost_scale_by_law(law, sum / places);
 }
 
-/* Of the tet, or at its vertices: of `places`, as many as all fields take. */
-static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, int places,
-                                double *values)
+/* Of numbers of both signs one between them is 0, which makes a modulus only if the least one does. */
+static OstStatus check_modulus(const OstScene *scene, const double law[3], int places, const double *numbers)
 {
-    const int at_vertices = is_at_vertices(scene, modulus->field);
-    const double *numbers = NULL;
-    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &numbers));
+    int signs = 0;
     for (int place = 0; place < places; place++) {
-        const double number = numbers[at_vertices ? place : 0];
-        values[place] = modulus_of_number(modulus, number);
-        if (!(values[place] > 0.0 && isfinite(values[place]) && isfinite(number)))
+        const double number = numbers[place], value = ost_scale_by_law(law, number);
+        signs |= number > 0.0 ? 1 : 2;
+        if (!(value > 0.0 && isfinite(value) && isfinite(number)))
             return OST_RAISE(
                 scene->ctx, OST_INVALID_INPUT,
                 "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller",
-                number, values[place]);
+                number, value);
     }
+    if (signs == 3 && !(law[1] > 0.0 && law[2] > 0.0))
+        return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                         "its numbers are above and below 0 at vertices of one tet, and none makes a Young's modulus "
+                         "in between; state `least`");
     return OST_SUCCESS;
 }
 
-/* `factor`: places for each tet, 1 in regions whose modulus is a number. */
-static OstStatus find_factors(const OstScene *scene, int places, double *factor)
+/* Of the tet, or at its vertices: `places`, as many as any field has. */
+static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, int places,
+                                double *found)
+{
+    const int given = is_at_vertices(scene, modulus->field) ? 4 : 1;
+    const double *numbers = NULL;
+    double law[3];
+    law_of(modulus, law);
+    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &numbers));
+    OST_TRY(check_modulus(scene, law, given, numbers));
+    for (int place = 0; place < places; place++)
+        found[place] = numbers[given > 1 ? place : 0];
+    return OST_SUCCESS;
+}
+
+/* `found`: places for each tet, 1 in regions whose modulus is no field. */
+static OstStatus find_moduli(const OstScene *scene, int places, double *found)
 {
     const OstMesh *mesh = scene->mesh;
     const OstCaseMaterial *stated = NULL;
     int region = -1;
-    for (OstLocal t = 0; t < mesh->tet_count; t++, factor += places) {
+    for (OstLocal t = 0; t < mesh->tet_count; t++, found += places) {
         for (int place = 0; place < places; place++)
-            factor[place] = 1.0;
+            found[place] = 1.0;
         if (mesh->tet_region[t] != region) {
             region = mesh->tet_region[t];
             stated = ost_case_material_of(scene->c, mesh->regions.name[region]);
         }
         if (!stated || !stated->modulus.field)
             continue;
-        if (modulus_of_tet(scene, &stated->modulus, t, places, factor) != OST_SUCCESS)
+        if (modulus_of_tet(scene, &stated->modulus, t, places, found) != OST_SUCCESS)
             return raise_for_tet(scene, stated->modulus.place, stated->modulus.field, t);
     }
     return OST_SUCCESS;
@@ -222,21 +242,25 @@ static OstStatus find_factors(const OstScene *scene, int places, double *factor)
 
 OstStatus ost_scene_set_modulus(OstScene *scene)
 {
+    const OstNames *regions = &scene->mesh->regions;
     const OstLocal tets = scene->mesh->tet_count;
-    double *factor = NULL;
+    double *numbers = NULL, *law = NULL;
     int any = 0, places = 1;
-    for (int m = 0; m < scene->c->material_count; m++) {
-        const char *name = scene->c->materials[m].modulus.field;
-        any |= name != NULL;
-        places = is_at_vertices(scene, name) ? 4 : places;
+    OstStatus status = OST_NEW(scene->ctx, &law, 3 * regions->count);
+    for (int r = 0; r < regions->count && status == OST_SUCCESS; r++) {
+        static const OstModulusField none = {.factor = 1.0, .power = 1.0};
+        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
+        const int is_field = stated && stated->modulus.field;
+        law_of(is_field ? &stated->modulus : &none, law + 3 * r);
+        any |= is_field;
+        places = is_field && is_at_vertices(scene, stated->modulus.field) ? 4 : places;
     }
-    if (!any)
-        return OST_SUCCESS;
-    OstStatus status = OST_NEW(scene->ctx, &factor, (size_t)places * (size_t)tets);
-    OST_THEN(find_factors(scene, places, factor));
-    OST_THEN(places > 1 ? ost_field_set_vertex_scale(scene->field, tets, factor)
-                        : ost_field_set_scale(scene->field, tets, factor));
-    OST_FREE(factor);
+    if (any) {
+        OST_THEN(OST_NEW(scene->ctx, &numbers, (size_t)places * (size_t)tets));
+        OST_THEN(find_moduli(scene, places, numbers));
+        OST_THEN(ost_field_set_scale_by_law(scene->field, tets, places, numbers, law));
+    }
+    OST_FREE(numbers, law);
     return status;
 }
 
@@ -271,8 +295,13 @@ static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseM
     return OST_SUCCESS;
 }
 
-static OstStatus eigenstrain_of_tet(const OstScene *scene, const OstCaseMaterial *stated, OstLocal tet, int places,
-                                    double *strain)
+/* Eigenstrains that are fields: 1 or 4 places for each tet, with 6 columns each, or one number. */
+typedef struct EigenForm {
+    int any, places, columns;
+} EigenForm;
+
+static OstStatus eigenstrain_of_tet(const OstScene *scene, const OstCaseMaterial *stated, OstLocal tet,
+                                    const EigenForm *form, double *strain)
 {
     const int given = is_at_vertices(scene, stated->eigen_field) ? 4 : 1;
     int width = 0;
@@ -281,17 +310,22 @@ static OstStatus eigenstrain_of_tet(const OstScene *scene, const OstCaseMaterial
         return OST_SUCCESS;
     width /= given;
     OST_TRY(check_numbers(scene->mesh, tet, stated, width, given, field));
-    for (int place = 0; place < places; place++)
-        strain_of(stated, width, field + (given > 1 ? width * place : 0), strain + 6 * place);
+    for (int place = 0; place < form->places; place++) {
+        const double *there = field + (given > 1 ? width * place : 0);
+        if (form->columns == 1)
+            strain[place] = *there;
+        else
+            strain_of(stated, width, there, strain + 6 * place);
+    }
     return OST_SUCCESS;
 }
 
-/* Of the tets in regions whose eigenstrain is a field, at each of `places`; in memory from the context. */
-static OstStatus eigenstrain_of_tets(const OstScene *scene, int places, double **strain)
+/* Of the tets in regions whose eigenstrain is a field; in memory from the context. */
+static OstStatus eigenstrain_of_tets(const OstScene *scene, const EigenForm *form, double **strain)
 {
     const OstMesh *mesh = scene->mesh;
     const OstCaseMaterial *stated = NULL;
-    const size_t numbers = 6 * (size_t)places;
+    const size_t numbers = (size_t)form->columns * (size_t)form->places;
     int region = -1;
     OST_TRY(OST_NEW(mesh->ctx, strain, numbers * (size_t)mesh->tet_count));
     for (OstLocal t = 0; t < mesh->tet_count; t++) {
@@ -301,29 +335,46 @@ static OstStatus eigenstrain_of_tets(const OstScene *scene, int places, double *
         }
         if (stated && stated->eigen_field)
             OST_TRY(ost_case_located(scene->c, stated->eigen_place,
-                                     eigenstrain_of_tet(scene, stated, t, places, *strain + numbers * (size_t)t)));
+                                     eigenstrain_of_tet(scene, stated, t, form, *strain + numbers * (size_t)t)));
     }
     return OST_SUCCESS;
 }
 
+static void add_to_form(const OstScene *scene, const OstCaseMaterial *stated, EigenForm *form)
+{
+    const int field = ost_case_find_field(scene->c, stated->eigen_field);
+    const OstTetFields *fields = &scene->mesh->fields;
+    const int places = is_at_vertices(scene, stated->eigen_field) ? 4 : 1;
+    form->any = 1;
+    form->places = places > 1 ? places : form->places;
+    if (field >= 0 && field < fields->count && fields->first[field + 1] - fields->first[field] > places)
+        form->columns = 6;
+}
+
 OstStatus ost_scene_set_eigenstrain(OstScene *scene)
 {
-    const OstNames *regions = &scene->mesh->regions;
-    double *of_regions = NULL, *of_tets = NULL;
-    int places = 1;
+    const OstMesh *mesh = scene->mesh;
+    const OstNames *regions = &mesh->regions;
+    EigenForm form = {.places = 1, .columns = 1};
+    double *of_regions = NULL, *per_unit = NULL, *of_tets = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(scene->ctx, &of_regions, 6 * regions->count));
+    OST_TRY_DONE(OST_NEW(scene->ctx, &per_unit, 6 * regions->count));
     for (int r = 0; r < regions->count; r++) {
+        static const double one = 1.0;
         const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
-        if (stated && !stated->eigen_field)
+        if (stated && stated->eigen_field) {
+            add_to_form(scene, stated, &form);
+            strain_of(stated, 1, &one, per_unit + 6 * r);
+        } else if (stated) {
             memcpy(of_regions + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
-        places = stated && is_at_vertices(scene, stated->eigen_field) ? 4 : places;
+        }
     }
-    if (scene->mesh->tet_field)
-        OST_TRY_DONE(eigenstrain_of_tets(scene, places, &of_tets));
-    status = places > 1 ? ost_field_set_vertex_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets)
-                        : ost_field_set_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets);
+    if (form.any && mesh->tet_field)
+        OST_TRY_DONE(eigenstrain_of_tets(scene, &form, &of_tets));
+    status = ost_field_set_eigenstrain_at(scene->field, of_regions, mesh->tet_count, form.places, of_tets,
+                                          of_tets && form.columns == 1 ? per_unit : NULL);
 done:
-    OST_FREE(of_regions, of_tets);
+    OST_FREE(of_regions, per_unit, of_tets);
     return status;
 }
