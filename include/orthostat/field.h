@@ -61,9 +61,17 @@ OstStatus ost_field_mixed(OstMaterialField *field, double nu_limit, int *regions
 OstStatus ost_field_set_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
                                     const double *of_tets);
 
+/* Local. As ost_field_set_eigenstrain, with strains at the four vertices of each tet (24 × tet_count, or NULL). They
+ * are linear between the vertices; linear tets, whose strain is uniform, take the mean. */
+OstStatus ost_field_set_vertex_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
+                                           const double *at_vertices);
+
 /* Local. Stiffness tet by tet: that of the region times a factor above 0 for each of `tet_count` tets, ghosts included
  * (copied; NULL: none any more). Raises OST_INVALID_INPUT for a factor that is not positive and finite. */
 OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const double *factors);
+
+/* Local. As ost_field_set_scale, with factors at the four vertices of each tet (4 × tet_count), linear between them. */
+OstStatus ost_field_set_vertex_scale(OstMaterialField *field, OstLocal tet_count, const double *factors);
 
 void ost_field_destroy(OstMaterialField **field);
 

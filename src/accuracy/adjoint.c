@@ -60,7 +60,9 @@ static OstStatus move_large(const Search *search, double t, const double *u, con
 static void take_strain(const OstInterest *interest, OstMaterialField *field)
 {
     field->region_eigenstrain = NULL;
+    field->region_per_unit = NULL;
     field->tet_eigenstrain = interest->strain;
+    field->eigenstrain_places = 1;
     field->tet_eigenstrain_in_world = interest->strain_in_world;
 }
 

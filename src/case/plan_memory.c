@@ -163,16 +163,22 @@ static double adjoint_bytes(const OstCase *c, const OstPlan *plan)
     return 48.0 * counts->nodes + fmin(plan->adjoints, most) * (16.0 * functions + 48.0 * counts->nodes);
 }
 
-/* Columns of fields of the mesh file, if they are at vertices where they may be. */
+/* Columns of fields of the mesh file, if they are at vertices where they may be, and the moduli and eigenstrains that
+ * tets have of them. */
 static double field_bytes(const OstCase *c, const OstPlan *plan)
 {
     static const double columns[] = {
-        [OST_CASE_FIELD_OF_NUMBERS] = 1.0, [OST_CASE_FIELD_OF_DIRECTIONS] = 3.0, [OST_CASE_FIELD_OF_AXES] = 36.0};
-    double bytes = 0.0;
+        [OST_CASE_FIELD_OF_NUMBERS] = 4.0, [OST_CASE_FIELD_OF_DIRECTIONS] = 3.0, [OST_CASE_FIELD_OF_AXES] = 36.0};
+    double numbers = 0.0;
+    int is_modulus = 0, is_strain = 0;
     for (int f = 0; f < c->field_count; f++)
-        bytes += 8.0 * columns[c->fields[f].use] *
-                 (plan->quadratic && c->fields[f].use == OST_CASE_FIELD_OF_DIRECTIONS ? 4.0 : 1.0);
-    return bytes * plan->counts.tets;
+        numbers += columns[c->fields[f].use] *
+                   (plan->quadratic && c->fields[f].use == OST_CASE_FIELD_OF_DIRECTIONS ? 4.0 : 1.0);
+    for (int m = 0; m < c->material_count; m++) {
+        is_modulus |= c->materials[m].modulus.field != NULL;
+        is_strain |= c->materials[m].eigen_field != NULL;
+    }
+    return 8.0 * (numbers + (is_modulus ? 4.0 : 0.0) + (is_strain ? 4.0 : 0.0)) * plan->counts.tets;
 }
 
 /* Of a load case that is solved beside another: for each node its answer and the solve's vectors, and for each tet what

@@ -425,18 +425,34 @@ static void gather_pressure(OstElasticity *elasticity, const OstMaterialField *f
             elasticity->pressure[v][slot] = field->pressure ? field->pressure[4 * (size_t)tets[slot] + (size_t)v] : 0.0;
 }
 
-/* Multiplies C of each tet by its factor: m and A, which enter twice, by the root. */
-static void scale(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH])
+/* Has the one C of each tet at all points, where a factor or the eigenstrain differs between them. */
+static void spread(OstElasticity *elasticity, int points)
 {
-    OstSimd factor, root;
-    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-        factor[slot] = field->tet_scale[tets[slot]];
-        root[slot] = sqrt(field->tet_scale[tets[slot]]);
+    if (elasticity->points > 1 || elasticity->by_stretch)
+        return;
+    for (int point = 1; point < points; point++) {
+        memcpy(elasticity->c[point], elasticity->c[0], sizeof elasticity->c[0]);
+        if (elasticity->by_mean || elasticity->mixed)
+            memcpy(elasticity->m[point], elasticity->m[0], sizeof elasticity->m[0]);
     }
-    for (int p = 0; p < 6 && elasticity->by_stretch; p++)
-        elasticity->stretch_tensor[p] *= root;
-    for (int point = 0; point < elasticity->points && !elasticity->by_stretch; point++) {
-        for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+    elasticity->points = points;
+    elasticity->varying = (1U << OST_SIMD_WIDTH) - 1U;
+}
+
+/* Multiplies C of each tet by its factor: m and A, which enter twice, by the root. */
+static void scale(OstElasticity *elasticity, const OstMaterialField *field, const OstLocal tets[OST_SIMD_WIDTH],
+                  const OstQuadraturePoint *at)
+{
+    const int points = elasticity->by_stretch ? 1 : elasticity->points;
+    for (int point = 0; point < points; point++) {
+        OstSimd factor, root;
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            factor[slot] = ost_field_scale(field, tets[slot], points > 1 && at ? at[point].at : NULL);
+            root[slot] = sqrt(factor[slot]);
+        }
+        for (int p = 0; p < 6 && elasticity->by_stretch; p++)
+            elasticity->stretch_tensor[p] *= root;
+        for (int n = 0; n < OST_ELASTICITY_COUNT && !elasticity->by_stretch; n++)
             elasticity->c[point][n] *= factor;
         for (int p = 0; p < 6 && (elasticity->by_mean || elasticity->mixed); p++)
             elasticity->m[point][p] *= root;
@@ -458,9 +474,12 @@ void ost_elasticity_gather(OstElasticity *elasticity, const OstMaterialField *fi
         gather_mixed(elasticity, field, tets, points, at, places);
     if (elasticity->mixed)
         gather_pressure(elasticity, field, tets);
-    if (field->tet_scale)
-        scale(elasticity, field, tets);
     elasticity->eigenstrained = elasticity->eigen_share != 0.0 && ost_field_is_eigenstrained(field);
+    if (points > 0 && at &&
+        (ost_field_scales_within(field) || (elasticity->eigenstrained && ost_field_strains_within(field))))
+        spread(elasticity, points);
+    if (field->tet_scale)
+        scale(elasticity, field, tets, at);
     if (elasticity->eigenstrained)
         ost_eigenstrain_gather(elasticity, field, tets, at, places);
 }

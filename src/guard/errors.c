@@ -48,10 +48,14 @@ static void add_eigenstrains(void *data, const OstBatch *batch, const OstElement
                              const OstMeans *means)
 {
     double *sums = data;
+    const OstElasticity *elasticity = &batch->elasticity;
     add_stresses(&sums[EIGENSTRESS], batch, element, u, means);
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int p = 0; p < 6; p++)
-            sums[EIGENSTRAIN] += batch->elasticity.e0[0][p][slot] * batch->elasticity.e0[0][p][slot];
+    for (int point = 0; point < elasticity->points; point++)
+        for (int slot = 0; slot < batch->count; slot++)
+            for (int p = 0; p < 6; p++) {
+                const double strain = elasticity->e0[point][p][slot];
+                sums[EIGENSTRAIN] += strain * strain / elasticity->points;
+            }
 }
 
 static double square_of(const double vector[3])
@@ -184,13 +188,24 @@ static void compare_stresses(void *data, const OstBatch *batch, const OstElement
         }
 }
 
+/* The load with the forces of the eigenstrain; in memory from the context. */
+static OstStatus find_straining(const OstProblem *problem, double share, const double *load, double **straining)
+{
+    const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
+    OST_TRY(OST_NEW(problem->ctx, straining, n));
+    memcpy(*straining, load, n * sizeof *load);
+    return ost_field_is_eigenstrained(problem->field)
+               ? ost_eigenstrain_force(problem->mesh, problem->field, share, *straining)
+               : OST_SUCCESS;
+}
+
 OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const double *displacement,
                                   const double *internal, const double *load, const double *error, OstErrors *errors)
 {
     const OstMesh *mesh = problem->mesh;
     const size_t n = 3 * (size_t)mesh->owned_nodes, all = 3 * (size_t)mesh->node_count;
     const double share = ost_problem_eigen_share(problem, t);
-    double *moved = NULL, *wrong = NULL;
+    double *moved = NULL, *wrong = NULL, *straining = NULL;
     Turned turned = {.stress = NULL};
     double *sums = turned.sums, swollen = 0.0;
     OstStatus status = OST_NEW(problem->ctx, &moved, all);
@@ -200,6 +215,7 @@ OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const dou
         moved[i] = displacement[i] + error[i];
     OST_THEN(ost_problem_force(problem, t, moved, wrong));
     OST_THEN(add_eigen(problem, share, sums));
+    OST_THEN(find_straining(problem, share, load, &straining));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
     ost_visit_means_of(mesh, problem->field, problem->formulation, share, displacement, compare_stresses, &turned);
     turned.with_error = 1;
@@ -210,13 +226,13 @@ OstStatus ost_guard_turned_errors(const OstProblem *problem, double t, const dou
         sums[DISPLACEMENT_ERROR] += error[i] * error[i];
     }
     for (size_t k = 0; k < n; k += 3)
-        add_node(problem, (OstLocal)(k / 3), internal + k, wrong + k, displacement + k, error + k, load + k, load + k,
-                 sums);
+        add_node(problem, (OstLocal)(k / 3), internal + k, wrong + k, displacement + k, error + k, load + k,
+                 straining + k, sums);
     OST_TRY_DONE(ost_sum(problem->ctx, SUMS, sums));
     OST_TRY_DONE(free_displacement(mesh, sums[EIGENSTRAIN], &swollen));
     take_relative(problem, sums, swollen, errors);
 done:
-    OST_FREE(moved, wrong, turned.stress);
+    OST_FREE(moved, wrong, straining, turned.stress);
     return status;
 }
 
@@ -225,19 +241,16 @@ OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error
 {
     OstContext *ctx = problem->ctx;
     const size_t n = 3 * (size_t)problem->mesh->owned_nodes;
+    const double share = ost_problem_eigen_share(problem, 1.0);
     double *wrong = NULL, *load = NULL, *straining = NULL;
     double sums[SUMS] = {[STRESS] = stress}, swollen = 0.0, pressed = 0.0;
     OstStatus status = OST_NEW(ctx, &wrong, n);
     OST_THEN(OST_NEW(ctx, &load, n));
-    OST_THEN(OST_NEW(ctx, &straining, n));
     OST_THEN(ost_problem_force_and_stress(of_error, 0.0, error, wrong, &sums[STRESS_ERROR]));
-    OST_THEN(add_eigen(problem, ost_problem_eigen_share(problem, 1.0), sums));
+    OST_THEN(add_eigen(problem, share, sums));
     if (status == OST_SUCCESS) {
         ost_problem_load(problem, 1.0, NULL, load);
-        memcpy(straining, load, n * sizeof *load);
-        if (ost_field_is_eigenstrained(problem->field))
-            status =
-                ost_eigenstrain_force(problem->mesh, problem->field, ost_problem_eigen_share(problem, 1.0), straining);
+        status = find_straining(problem, share, load, &straining);
     }
     OST_TRY_DONE(ost_agree(ctx, status));
     for (size_t i = 0; i < n; i++) {

@@ -38,22 +38,33 @@ void ost_tensor_along(const double tensor[6], const double axes[9], double own[6
     }
 }
 
-void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
-                               double strain[6])
+/* What the tet has beyond its region. */
+static void find_of_tet(const OstMaterialField *field, OstLocal tet, const double at[4], double strain[6])
 {
-    double own[6] = {0.0}, world[6];
+    const size_t places = (size_t)field->eigenstrain_places, columns = ost_field_eigenstrain_columns(field);
+    memset(strain, 0, 6 * sizeof *strain);
+    for (size_t place = 0; place < places && field->tet_eigenstrain; place++) {
+        const double *there = field->tet_eigenstrain + columns * (places * (size_t)tet + place);
+        for (size_t p = 0; p < columns; p++)
+            strain[p] += ost_field_share(places, at, place) * there[p];
+    }
+    for (size_t p = 6; field->region_per_unit && p-- > 0;)
+        strain[p] = strain[0] * field->region_per_unit[6 * (size_t)field->tet_region[tet] + p];
+}
+
+void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, const double at[4], double share,
+                               const double axes[9], double strain[6])
+{
+    double own[6] = {0.0}, of_tet[6], world[6];
+    find_of_tet(field, tet, at, of_tet);
     for (size_t p = 0; p < 6; p++) {
         if (field->region_eigenstrain)
             own[p] += field->region_eigenstrain[6 * (size_t)field->tet_region[tet] + p];
-        if (field->tet_eigenstrain && !field->tet_eigenstrain_in_world)
-            own[p] += field->tet_eigenstrain[6 * (size_t)tet + p];
+        own[p] += field->tet_eigenstrain_in_world ? 0.0 : of_tet[p];
     }
     ost_strain_to_world(own, axes, world);
-    for (size_t p = 0; p < 6; p++) {
-        if (field->tet_eigenstrain && field->tet_eigenstrain_in_world)
-            world[p] += field->tet_eigenstrain[6 * (size_t)tet + p];
-        strain[p] += share * world[p];
-    }
+    for (int p = 0; p < 6; p++)
+        strain[p] += share * (field->tet_eigenstrain_in_world ? world[p] + of_tet[p] : world[p]);
 }
 
 static OstStatus copy(OstContext *ctx, size_t count, const double *given, double **kept)
@@ -66,12 +77,27 @@ static OstStatus copy(OstContext *ctx, size_t count, const double *given, double
     return OST_SUCCESS;
 }
 
+OstStatus ost_field_set_eigenstrain_at(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
+                                       int places, const double *of_tets, const double *per_unit)
+{
+    const size_t of_region = 6 * (size_t)field->region_count, numbers = (size_t)places * (per_unit ? 1 : 6);
+    ost_ledger_enter(field->ctx, OST_EFFECT_EIGENSTRAIN);
+    OstStatus status = copy(field->ctx, of_region, of_regions, &field->region_eigenstrain);
+    OST_THEN(copy(field->ctx, of_region, per_unit, &field->region_per_unit));
+    OST_THEN(copy(field->ctx, numbers * (size_t)tet_count, of_tets, &field->tet_eigenstrain));
+    field->eigenstrain_places = places;
+    ost_ledger_leave(field->ctx);
+    return status;
+}
+
 OstStatus ost_field_set_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
                                     const double *of_tets)
 {
-    ost_ledger_enter(field->ctx, OST_EFFECT_EIGENSTRAIN);
-    OstStatus status = copy(field->ctx, 6 * (size_t)field->region_count, of_regions, &field->region_eigenstrain);
-    OST_THEN(copy(field->ctx, 6 * (size_t)tet_count, of_tets, &field->tet_eigenstrain));
-    ost_ledger_leave(field->ctx);
-    return status;
+    return ost_field_set_eigenstrain_at(field, of_regions, tet_count, 1, of_tets, NULL);
+}
+
+OstStatus ost_field_set_vertex_eigenstrain(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
+                                           const double *at_vertices)
+{
+    return ost_field_set_eigenstrain_at(field, of_regions, tet_count, 4, at_vertices, NULL);
 }

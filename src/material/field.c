@@ -24,22 +24,43 @@ void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double sti
     } else
         memcpy(stiffness, field->region_stiffness + 36 * (size_t)region, 36 * sizeof(double));
     for (int i = 0; i < 36 && field->tet_scale; i++)
-        stiffness[i] *= field->tet_scale[tet];
+        stiffness[i] *= ost_field_scale(field, tet, NULL);
+}
+
+OstStatus ost_field_set_scale_by_law(OstMaterialField *field, OstLocal tet_count, int places, const double *numbers,
+                                     const double *law)
+{
+    const size_t count = (size_t)places * (size_t)tet_count, laws = 3 * (size_t)field->region_count;
+    OST_FREE(field->tet_scale, field->scale_law);
+    field->scale_places = places;
+    OST_TRY(OST_NEW(field->ctx, &field->tet_scale, count));
+    if (count > 0)
+        memcpy(field->tet_scale, numbers, count * sizeof *numbers);
+    if (!law)
+        return OST_SUCCESS;
+    OST_TRY(OST_NEW(field->ctx, &field->scale_law, laws));
+    memcpy(field->scale_law, law, laws * sizeof *law);
+    return OST_SUCCESS;
+}
+
+static OstStatus set_scale(OstMaterialField *field, OstLocal tet_count, int places, const double *factors)
+{
+    OST_FREE(field->tet_scale, field->scale_law);
+    for (size_t n = 0; n < (size_t)places * (size_t)tet_count && factors; n++)
+        if (!(factors[n] > 0.0) || !isfinite(factors[n]))
+            return OST_RAISE(field->ctx, OST_INVALID_INPUT, "factor %lld of the stiffness is %g, expected one above 0",
+                             (long long)n, factors[n]);
+    return factors ? ost_field_set_scale_by_law(field, tet_count, places, factors, NULL) : OST_SUCCESS;
 }
 
 OstStatus ost_field_set_scale(OstMaterialField *field, OstLocal tet_count, const double *factors)
 {
-    OST_FREE(field->tet_scale);
-    if (!factors)
-        return OST_SUCCESS;
-    for (OstLocal t = 0; t < tet_count; t++)
-        if (!(factors[t] > 0.0) || !isfinite(factors[t]))
-            return OST_RAISE(field->ctx, OST_INVALID_INPUT, "factor %lld of the stiffness is %g, expected one above 0",
-                             (long long)t, factors[t]);
-    OST_TRY(OST_NEW(field->ctx, &field->tet_scale, tet_count));
-    if (tet_count > 0)
-        memcpy(field->tet_scale, factors, (size_t)tet_count * sizeof *factors);
-    return OST_SUCCESS;
+    return set_scale(field, tet_count, 1, factors);
+}
+
+OstStatus ost_field_set_vertex_scale(OstMaterialField *field, OstLocal tet_count, const double *factors)
+{
+    return set_scale(field, tet_count, 4, factors);
 }
 
 void ost_field_axes(const OstMaterialField *field, OstLocal tet, double axes[9])
@@ -461,6 +482,6 @@ void ost_field_destroy(OstMaterialField **field)
     forget_split(&(*field)->mixed);
     OST_FREE((*field)->tet_scale, (*field)->region_eigenstrain, (*field)->tet_eigenstrain, (*field)->material,
              (*field)->region_stiffness, (*field)->region_axes, (*field)->region_varies, (*field)->tet_turn);
-    OST_FREE((*field)->region_along, (*field)->tet_directions);
+    OST_FREE((*field)->scale_law, (*field)->region_per_unit, (*field)->region_along, (*field)->tet_directions);
     OST_FREE(*field);
 }

@@ -5,6 +5,8 @@
 #include "effect/effect.h"
 #include "orthostat/field.h"
 
+#include <math.h>
+
 typedef enum { OST_SPLIT_NOT, OST_SPLIT_MEAN, OST_SPLIT_MIXED } OstSplitForm;
 
 /* C = rest + m m' (ost_field_mean_dilatation), or rest + m m' / looseness (ost_field_mixed). NULL: no C is split. */
@@ -43,31 +45,81 @@ struct OstMaterialField {
      * is not split; not owned. NULL: 0 everywhere. */
     const double *pressure;
 
-    double *tet_scale; /* tet_count: C is that of the region times this (ost_field_set_scale); NULL: 1 */
+    /* Of each tet, or at each of its four vertices, which are its `places`: C is that of the region times this
+     * (ost_field_set_scale); NULL: 1. */
+    double *tet_scale;
+    int scale_places;
+    double *scale_law; /* region_count × 3: C is that times max(factor · scale^power, least); NULL: times the scale */
 
     double *region_eigenstrain;   /* region_count × 6, in material axes; NULL if no region has one */
-    double *tet_eigenstrain;      /* tet_count × 6, added to the region's; NULL if none was given tet by tet */
+    double *tet_eigenstrain;      /* tet_count × places × columns, added to the region's; NULL if none was given */
+    int eigenstrain_places;       /* 1 or 4, as of the scale */
+    double *region_per_unit;      /* region_count × 6: strains for the one column that there is then; NULL: six */
     int tet_eigenstrain_in_world; /* is that in world axes? */
 };
 
 /* Local. The first region that is incompressible (nu = 1/2), or -1. */
 int ost_field_incompressible(const OstMaterialField *field);
 
-/* Local. The factor of a tet's stiffness. */
-static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet)
+/* Local. The share of a place in what a tet has at barycentric coordinates `at`; NULL: in its mean. */
+static inline double ost_field_share(size_t places, const double at[4], size_t place)
 {
-    return field->tet_scale ? field->tet_scale[tet] : 1.0;
+    return places == 1 ? 1.0 : at ? at[place] : 0.25;
+}
+
+static inline double ost_scale_by_law(const double law[3], double number)
+{
+    return fmax(law[0] * (law[1] == 1.0 ? number : pow(number, law[1])), law[2]);
+}
+
+/* Local. The factor of a tet's stiffness at barycentric coordinates; NULL: that of the mean. */
+static inline double ost_field_scale(const OstMaterialField *field, OstLocal tet, const double at[4])
+{
+    const size_t places = (size_t)field->scale_places;
+    double sum = 0.0;
+    for (size_t place = 0; place < places && field->tet_scale; place++)
+        sum += ost_field_share(places, at, place) * field->tet_scale[places * (size_t)tet + place];
+    if (field->tet_scale && field->scale_law)
+        return ost_scale_by_law(field->scale_law + 3 * (size_t)field->tet_region[tet], sum);
+    return field->tet_scale ? sum : 1.0;
+}
+
+/* Local. Numbers of tets, or at their vertices if `places` is 4, that a law for each region makes the factors of: 3 ×
+ * region_count, copied. They are not checked. */
+OstStatus ost_field_set_scale_by_law(OstMaterialField *field, OstLocal tet_count, int places, const double *numbers,
+                                     const double *law);
+
+/* Local. Does C, or the eigenstrain, differ between the vertices of tets? */
+static inline int ost_field_scales_within(const OstMaterialField *field)
+{
+    return field->tet_scale && field->scale_places > 1;
+}
+
+static inline int ost_field_strains_within(const OstMaterialField *field)
+{
+    return field->tet_eigenstrain && field->eigenstrain_places > 1;
 }
 
 /* Local. Does any tet have an eigenstrain? */
 int ost_field_is_eigenstrained(const OstMaterialField *field);
 
+static inline size_t ost_field_eigenstrain_columns(const OstMaterialField *field)
+{
+    return field->region_per_unit ? 1 : 6;
+}
+
+/* Local. As ost_field_set_eigenstrain, with strains at the vertices if `places` is 4, or with one number in place of
+ * each six, times its region's `per_unit` (6 × regions; or NULL). */
+OstStatus ost_field_set_eigenstrain_at(OstMaterialField *field, const double *of_regions, OstLocal tet_count,
+                                       int places, const double *of_tets, const double *per_unit);
+
 /* Local. A symmetric tensor 11 22 33 12 23 31 along axes (rows). */
 void ost_tensor_along(const double tensor[6], const double axes[9], double own[6]);
 
-/* Local. Adds `share` of a tet's eigenstrain to `strain`, in the world axes that the material's `axes` are given in. */
-void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, double share, const double axes[9],
-                               double strain[6]);
+/* Local. Adds `share` of a tet's eigenstrain at barycentric coordinates (NULL: its mean) to `strain`, in the world axes
+ * that the material's `axes` are given in. */
+void ost_field_add_eigenstrain(const OstMaterialField *field, OstLocal tet, const double at[4], double share,
+                               const double axes[9], double strain[6]);
 
 /* Local. C of a tet in world axes. */
 void ost_field_stiffness(const OstMaterialField *field, OstLocal tet, double stiffness[36]);

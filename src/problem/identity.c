@@ -48,14 +48,22 @@ static uint64_t hash_follower(uint64_t hash, const OstFollower *follower)
     return hash;
 }
 
+/* Of a tet. */
+static size_t eigenstrain_numbers(const OstMaterialField *field)
+{
+    return (size_t)field->eigenstrain_places * ost_field_eigenstrain_columns(field);
+}
+
 static uint64_t hash_field(uint64_t hash, const OstMaterialField *field, OstLocal tets)
 {
     if (field->region_axes)
         hash = ost_hash(hash, 9 * (size_t)field->region_count * sizeof(double), field->region_axes);
     if (field->region_eigenstrain)
         hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_eigenstrain);
+    if (field->region_per_unit)
+        hash = ost_hash(hash, 6 * (size_t)field->region_count * sizeof(double), field->region_per_unit);
     if (field->tet_eigenstrain)
-        hash = ost_hash(hash, 6 * (size_t)tets * sizeof(double), field->tet_eigenstrain);
+        hash = ost_hash(hash, eigenstrain_numbers(field) * (size_t)tets * sizeof(double), field->tet_eigenstrain);
     if (field->tet_directions)
         hash = ost_hash(hash, OST_DIRECTIONS * (size_t)tets * sizeof(float), field->tet_directions);
     return field->tet_turn ? ost_hash(hash, 4 * (size_t)tets * sizeof(double), field->tet_turn) : hash;
@@ -179,8 +187,11 @@ static void add_tets(OstProblemIdentity *identity, const OstProblem *problem)
         add(identity, OST_MARK_MATERIAL, label, 0, 9, axes);
         if (field->region_eigenstrain)
             add(identity, OST_MARK_MATERIAL, label, 9, 6, field->region_eigenstrain + 6 * region);
+        if (field->region_per_unit)
+            add(identity, OST_MARK_MATERIAL, label, 15, 6, field->region_per_unit + 6 * region);
         if (field->tet_eigenstrain)
-            add(identity, OST_MARK_MATERIAL, label, 15, 6, field->tet_eigenstrain + 6 * (size_t)t);
+            add(identity, OST_MARK_MATERIAL, label, 21, (int)eigenstrain_numbers(field),
+                field->tet_eigenstrain + eigenstrain_numbers(field) * (size_t)t);
     }
 }
 

@@ -147,8 +147,8 @@ static OstStatus add_material_facts(const OstMaterialField *field, const OstMesh
     }
     for (OstLocal t = 0; t < mesh->owned_tets && field->tet_scale; t++) {
         const int r = mesh->tet_region[t];
-        least[r] = fmin(least[r], field->tet_scale[t]);
-        most[r] = fmax(most[r], field->tet_scale[t]);
+        least[r] = fmin(least[r], ost_field_scale(field, t, NULL));
+        most[r] = fmax(most[r], ost_field_scale(field, t, NULL));
     }
     if (field->tet_scale) {
         OST_TRY_DONE(ost_min(ctx, regions, least));

@@ -13,13 +13,13 @@
 /* What the mesh file states tet by tet, or at vertices: axes, moduli, eigenstrains. */
 
 /* Directions at the vertices are kept where axes vary within the tets, which are or become quadratic; e1, e2 and e3
- * always, as their mean is no frame. */
+ * always, as their mean is no frame, and numbers, as finer tets and the estimate of the error want them. */
 static unsigned use_of(const OstCase *c, const OstCaseField *asked, const OstMeshChunk *chunk)
 {
     const int quadratic = c->order == 2 || (c->order == 0 && (chunk->nodes_per_tet == 10 || c->asks_error));
     if (asked->use == OST_CASE_FIELD_OF_DIRECTIONS)
         return OST_FIELD_OF_DIRECTIONS | (quadratic ? OST_FIELD_AT_VERTICES : 0U);
-    return asked->use == OST_CASE_FIELD_OF_AXES ? OST_FIELD_AT_VERTICES : OST_FIELD_OF_NUMBERS;
+    return OST_FIELD_AT_VERTICES;
 }
 
 OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
@@ -38,7 +38,7 @@ OstStatus ost_scene_read_tet_fields(const OstCase *c, OstMeshChunk *chunk)
     return OST_SUCCESS;
 }
 
-/* A field's numbers of a tet; NULL if the mesh has none of the name. */
+/* A field's numbers of a tet, or of its vertices one after the other; NULL if the mesh has none of the name. */
 static const double *field_of(const OstCase *c, const OstMesh *mesh, const char *name, OstLocal tet, int *width)
 {
     const int field = mesh->tet_field ? ost_case_find_field(c, name) : -1;
@@ -161,9 +161,12 @@ OstStatus ost_scene_field_axes(const OstScene *scene, const OstSceneMaterials *m
 
 /* --- moduli --- */
 
-static double modulus_of_number(const OstModulusField *modulus, double number)
+/* factor, power, least (material/field_data.h) */
+static void law_of(const OstModulusField *modulus, double law[3])
 {
-    return fmax(modulus->factor * pow(number, modulus->power), modulus->least);
+    law[0] = modulus->factor;
+    law[1] = modulus->power;
+    law[2] = modulus->least;
 }
 
 double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, const OstModulusField *modulus,
@@ -172,53 +175,98 @@ double ost_scene_chunk_modulus(const OstCase *c, const OstMeshChunk *chunk, cons
     const int field = chunk->tet_field ? ost_case_find_field(c, modulus->field) : -1;
     if (field < 0 || field >= chunk->fields.count)
         return 1.0;
-    const size_t row = (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
-    return modulus_of_number(modulus, chunk->tet_field[row + (size_t)chunk->fields.first[field]]);
+    const double *row = chunk->tet_field + (size_t)ost_tet_fields_width(&chunk->fields) * (size_t)tet;
+    const int places = chunk->fields.at_vertices[field] ? 4 : 1;
+    double law[3], sum = 0.0;
+    for (int place = 0; place < places; place++)
+        sum += row[chunk->fields.first[field] + place];
+    law_of(modulus, law);
+    return ost_scale_by_law(law, sum / places);
 }
 
-static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, double *value)
+/* Of numbers of both signs one between them is 0, which makes a modulus only if the least one does. */
+static OstStatus check_modulus(const OstScene *scene, const double law[3], int places, const double *numbers)
 {
-    const double *number = NULL;
-    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &number));
-    *value = modulus_of_number(modulus, *number);
-    if (*value > 0.0 && isfinite(*value) && isfinite(*number))
-        return OST_SUCCESS;
-    return OST_RAISE(
-        scene->ctx, OST_INVALID_INPUT,
-        "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller", *number,
-        *value);
+    int signs = 0;
+    for (int place = 0; place < places; place++) {
+        const double number = numbers[place], value = ost_scale_by_law(law, number);
+        signs |= number > 0.0 ? 1 : 2;
+        if (!(value > 0.0 && isfinite(value) && isfinite(number)))
+            return OST_RAISE(
+                scene->ctx, OST_INVALID_INPUT,
+                "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller",
+                number, value);
+    }
+    if (signs == 3 && !(law[1] > 0.0 && law[2] > 0.0))
+        return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                         "its numbers are above and below 0 at vertices of one tet, and none makes a Young's modulus "
+                         "in between; state `least`");
+    return OST_SUCCESS;
 }
 
-OstStatus ost_scene_set_modulus(OstScene *scene)
+/* Of the tet, or at its vertices: `places`, as many as any field has. */
+static OstStatus modulus_of_tet(const OstScene *scene, const OstModulusField *modulus, OstLocal tet, int places,
+                                double *found)
+{
+    const int given = is_at_vertices(scene, modulus->field) ? 4 : 1;
+    const double *numbers = NULL;
+    double law[3];
+    law_of(modulus, law);
+    OST_TRY(numbers_of(scene, modulus->field, tet, 1, &numbers));
+    OST_TRY(check_modulus(scene, law, given, numbers));
+    for (int place = 0; place < places; place++)
+        found[place] = numbers[given > 1 ? place : 0];
+    return OST_SUCCESS;
+}
+
+/* `found`: places for each tet, 1 in regions whose modulus is no field. */
+static OstStatus find_moduli(const OstScene *scene, int places, double *found)
 {
     const OstMesh *mesh = scene->mesh;
-    double *factor = NULL;
-    int region = -1, any = 0;
     const OstCaseMaterial *stated = NULL;
-    for (int m = 0; m < scene->c->material_count; m++)
-        any |= scene->c->materials[m].modulus.field != NULL;
-    if (!any)
-        return OST_SUCCESS;
-    OstStatus status = OST_NEW(scene->ctx, &factor, mesh->tet_count);
-    for (OstLocal t = 0; t < mesh->tet_count && status == OST_SUCCESS; t++) {
-        factor[t] = 1.0;
+    int region = -1;
+    for (OstLocal t = 0; t < mesh->tet_count; t++, found += places) {
+        for (int place = 0; place < places; place++)
+            found[place] = 1.0;
         if (mesh->tet_region[t] != region) {
             region = mesh->tet_region[t];
             stated = ost_case_material_of(scene->c, mesh->regions.name[region]);
         }
         if (!stated || !stated->modulus.field)
             continue;
-        if (modulus_of_tet(scene, &stated->modulus, t, &factor[t]) != OST_SUCCESS)
-            status = raise_for_tet(scene, stated->modulus.place, stated->modulus.field, t);
+        if (modulus_of_tet(scene, &stated->modulus, t, places, found) != OST_SUCCESS)
+            return raise_for_tet(scene, stated->modulus.place, stated->modulus.field, t);
     }
-    OST_THEN(ost_field_set_scale(scene->field, mesh->tet_count, factor));
-    OST_FREE(factor);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_scene_set_modulus(OstScene *scene)
+{
+    const OstNames *regions = &scene->mesh->regions;
+    const OstLocal tets = scene->mesh->tet_count;
+    double *numbers = NULL, *law = NULL;
+    int any = 0, places = 1;
+    OstStatus status = OST_NEW(scene->ctx, &law, 3 * regions->count);
+    for (int r = 0; r < regions->count && status == OST_SUCCESS; r++) {
+        static const OstModulusField none = {.factor = 1.0, .power = 1.0};
+        const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
+        const int is_field = stated && stated->modulus.field;
+        law_of(is_field ? &stated->modulus : &none, law + 3 * r);
+        any |= is_field;
+        places = is_field && is_at_vertices(scene, stated->modulus.field) ? 4 : places;
+    }
+    if (any) {
+        OST_THEN(OST_NEW(scene->ctx, &numbers, (size_t)places * (size_t)tets));
+        OST_THEN(find_moduli(scene, places, numbers));
+        OST_THEN(ost_field_set_scale_by_law(scene->field, tets, places, numbers, law));
+    }
+    OST_FREE(numbers, law);
     return status;
 }
 
 /* --- eigenstrains --- */
 
-/* The eigenstrain that a tet's numbers stand for: of all directions, along the axes, with the shears, or a tensor. */
+/* The eigenstrain that numbers stand for: of all directions, along the axes, with the shears, or a tensor. */
 static void strain_of(const OstCaseMaterial *stated, int width, const double *field, double strain[6])
 {
     for (int p = 0; p < 6; p++)
@@ -231,13 +279,14 @@ static void strain_of(const OstCaseMaterial *stated, int width, const double *fi
         strain[p] = field[0] * stated->eigenstrain[p];
 }
 
-static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated, int width,
+/* `width` numbers at each of `places`. */
+static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseMaterial *stated, int width, int places,
                                const double *field)
 {
     if (stated->eigen_per_unit && width != 1)
         return OST_RAISE(mesh->ctx, OST_INVALID_INPUT, "the field '%s' has %d numbers a tet; a change is one",
                          stated->eigen_field, width);
-    for (int k = 0; k < width; k++)
+    for (int k = 0; k < width * places; k++)
         if (!isfinite(field[k]))
             return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
                              "the field '%s' has no number for tet %lld of region '%s', which it is asked for",
@@ -246,44 +295,86 @@ static OstStatus check_numbers(const OstMesh *mesh, OstLocal tet, const OstCaseM
     return OST_SUCCESS;
 }
 
-/* Of the tets in regions whose eigenstrain is a field; in memory from the context. */
-static OstStatus eigenstrain_of_tets(const OstCase *c, const OstMesh *mesh, double **strain)
+/* Eigenstrains that are fields: 1 or 4 places for each tet, with 6 columns each, or one number. */
+typedef struct EigenForm {
+    int any, places, columns;
+} EigenForm;
+
+static OstStatus eigenstrain_of_tet(const OstScene *scene, const OstCaseMaterial *stated, OstLocal tet,
+                                    const EigenForm *form, double *strain)
 {
-    const OstCaseMaterial *stated = NULL;
-    int region = -1;
-    OST_TRY(OST_NEW(mesh->ctx, strain, 6 * (size_t)mesh->tet_count));
-    for (OstLocal t = 0; t < mesh->tet_count; t++) {
-        if (mesh->tet_region[t] != region) {
-            region = mesh->tet_region[t];
-            stated = ost_case_material_of(c, mesh->regions.name[region]);
-        }
-        if (!stated || !stated->eigen_field)
-            continue;
-        int width = 0;
-        const double *field = field_of(c, mesh, stated->eigen_field, t, &width);
-        if (!field)
-            continue;
-        OST_TRY(ost_case_located(c, stated->eigen_place, check_numbers(mesh, t, stated, width, field)));
-        strain_of(stated, width, field, *strain + 6 * (size_t)t);
+    const int given = is_at_vertices(scene, stated->eigen_field) ? 4 : 1;
+    int width = 0;
+    const double *field = field_of(scene->c, scene->mesh, stated->eigen_field, tet, &width);
+    if (!field)
+        return OST_SUCCESS;
+    width /= given;
+    OST_TRY(check_numbers(scene->mesh, tet, stated, width, given, field));
+    for (int place = 0; place < form->places; place++) {
+        const double *there = field + (given > 1 ? width * place : 0);
+        if (form->columns == 1)
+            strain[place] = *there;
+        else
+            strain_of(stated, width, there, strain + 6 * place);
     }
     return OST_SUCCESS;
 }
 
+/* Of the tets in regions whose eigenstrain is a field; in memory from the context. */
+static OstStatus eigenstrain_of_tets(const OstScene *scene, const EigenForm *form, double **strain)
+{
+    const OstMesh *mesh = scene->mesh;
+    const OstCaseMaterial *stated = NULL;
+    const size_t numbers = (size_t)form->columns * (size_t)form->places;
+    int region = -1;
+    OST_TRY(OST_NEW(mesh->ctx, strain, numbers * (size_t)mesh->tet_count));
+    for (OstLocal t = 0; t < mesh->tet_count; t++) {
+        if (mesh->tet_region[t] != region) {
+            region = mesh->tet_region[t];
+            stated = ost_case_material_of(scene->c, mesh->regions.name[region]);
+        }
+        if (stated && stated->eigen_field)
+            OST_TRY(ost_case_located(scene->c, stated->eigen_place,
+                                     eigenstrain_of_tet(scene, stated, t, form, *strain + numbers * (size_t)t)));
+    }
+    return OST_SUCCESS;
+}
+
+static void add_to_form(const OstScene *scene, const OstCaseMaterial *stated, EigenForm *form)
+{
+    const int field = ost_case_find_field(scene->c, stated->eigen_field);
+    const OstTetFields *fields = &scene->mesh->fields;
+    const int places = is_at_vertices(scene, stated->eigen_field) ? 4 : 1;
+    form->any = 1;
+    form->places = places > 1 ? places : form->places;
+    if (field >= 0 && field < fields->count && fields->first[field + 1] - fields->first[field] > places)
+        form->columns = 6;
+}
+
 OstStatus ost_scene_set_eigenstrain(OstScene *scene)
 {
-    const OstNames *regions = &scene->mesh->regions;
-    double *of_regions = NULL, *of_tets = NULL;
+    const OstMesh *mesh = scene->mesh;
+    const OstNames *regions = &mesh->regions;
+    EigenForm form = {.places = 1, .columns = 1};
+    double *of_regions = NULL, *per_unit = NULL, *of_tets = NULL;
     OstStatus status = OST_SUCCESS;
     OST_TRY_DONE(OST_NEW(scene->ctx, &of_regions, 6 * regions->count));
+    OST_TRY_DONE(OST_NEW(scene->ctx, &per_unit, 6 * regions->count));
     for (int r = 0; r < regions->count; r++) {
+        static const double one = 1.0;
         const OstCaseMaterial *stated = ost_case_material_of(scene->c, regions->name[r]);
-        if (stated && !stated->eigen_field)
+        if (stated && stated->eigen_field) {
+            add_to_form(scene, stated, &form);
+            strain_of(stated, 1, &one, per_unit + 6 * r);
+        } else if (stated) {
             memcpy(of_regions + 6 * r, stated->eigenstrain, sizeof stated->eigenstrain);
+        }
     }
-    if (scene->mesh->tet_field)
-        OST_TRY_DONE(eigenstrain_of_tets(scene->c, scene->mesh, &of_tets));
-    status = ost_field_set_eigenstrain(scene->field, of_regions, scene->mesh->tet_count, of_tets);
+    if (form.any && mesh->tet_field)
+        OST_TRY_DONE(eigenstrain_of_tets(scene, &form, &of_tets));
+    status = ost_field_set_eigenstrain_at(scene->field, of_regions, mesh->tet_count, form.places, of_tets,
+                                          of_tets && form.columns == 1 ? per_unit : NULL);
 done:
-    OST_FREE(of_regions, of_tets);
+    OST_FREE(of_regions, per_unit, of_tets);
     return status;
 }

@@ -132,7 +132,7 @@ static double mixed_pressure(const OstResult *result, OstLocal tet)
     const OstMaterialField *field = result->field;
     const double *p = result->pressure + 4 * (size_t)tet;
     const double *mode = ost_field_stiff_mode(field, field->tet_region[tet]);
-    const double root = field->tet_scale ? sqrt(field->tet_scale[tet]) : 1.0;
+    const double root = sqrt(ost_field_scale(field, tet, NULL));
     return mode ? -root * (mode[0] + mode[1] + mode[2]) / 3.0 * 0.25 * (p[0] + p[1] + p[2] + p[3]) : 0.0;
 }
 

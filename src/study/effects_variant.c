@@ -33,7 +33,7 @@ static OstStatus sum_regions(const OstScene *scene, RegionMean *mean)
         RegionMean *of = &mean[mesh->tet_region[t]];
         ost_field_axes(scene->field, t, axes);
         of->volume += volume;
-        of->scale += volume * ost_field_scale(scene->field, t);
+        of->scale += volume * ost_field_scale(scene->field, t, NULL);
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < 9; i++)
                 of->direction[k][i] += volume * axes[3 * k + i / 3] * axes[3 * k + i % 3];

@@ -96,7 +96,7 @@ static void take_off_eigenstrain(const View *view, OstLocal tet, const double at
     if (!ost_field_is_eigenstrained(field))
         return;
     ost_field_axes_at(field, tet, at, place, axes);
-    ost_field_add_eigenstrain(field, tet, -1.0, axes, strain);
+    ost_field_add_eigenstrain(field, tet, at, -1.0, axes, strain);
 }
 
 /* What is left of the answer's strain when the eigenstrain is taken off. */

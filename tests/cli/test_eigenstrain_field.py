@@ -1,4 +1,5 @@
-"""Eigenstrains tet by tet, from a field of the mesh file: $ElementData of .msh, text and bytes, and CellData of .vtkhdf."""
+"""Eigenstrains tet by tet, from a field of the mesh file: $ElementData of .msh, text and bytes, and CellData of .vtkhdf; and
+eigenstrains and moduli at vertices, $NodeData."""
 import json
 import math
 import struct
@@ -24,8 +25,8 @@ def bar():
 POINTS, TETS = bar()
 
 
-def msh(fields, binary=False):
-    """A file of version 2.2 with these fields: {name: (components, {tag: numbers})}."""
+def msh(fields, binary=False, at_vertices={}):
+    """A file of version 2.2 with these fields: {name: (components, {tag: numbers})}, {name: numbers of vertices}."""
     def record(form, *numbers):
         return struct.pack("=" + form, *numbers) if binary else (" ".join(map(repr, numbers)) + "\n").encode()
     out = b"$MeshFormat\n2.2 %d 8\n" % binary + (struct.pack("=i", 1) + b"\n" if binary else b"") + b"$EndMeshFormat\n"
@@ -44,6 +45,11 @@ def msh(fields, binary=False):
         for tag, numbers in values.items():
             out += record("i" + components * "d", tag, *numbers)
         out += (b"\n" if binary else b"") + b"$EndElementData\n"
+    for name, values in at_vertices.items():
+        out += b'$NodeData\n1\n"%s"\n1\n0.0\n3\n0\n1\n%d\n' % (name.encode(), len(values))
+        for number, value in enumerate(values):
+            out += record("id", number + 1, value)
+        out += b"$EndNodeData\n"
     return out
 
 
@@ -124,7 +130,47 @@ for ranks in fewer((1, 3)):
     grown = json.loads(done.output)["watched"]["end"]["value"]
     check(math.isclose(grown, 2 / 20, rel_tol=1e-7), f"grown by {grown} on {ranks} ranks")
 
+# A free bar whose temperature is linear has no stress; of linear tets, whose strain is uniform, less on a finer mesh. A bar
+# with E = 1 + x, or (1 + x)^2 as a power, grows by F ln 4, or F (1 - 1/4).
+write(folder, "bar.msh", msh({}, at_vertices={"T": [20 + 10 * x for x, _, _ in POINTS], "E": [1 + x for x, _, _ in POINTS],
+                                              "odd": [x - 1.5 for x, _, _ in POINTS]}))
+FREE = """constraints: [{on: {nearest: [0, 0, 0]}, displacement: [0, 0, 0]}, {on: {nearest: [0, 0, 2]}, displacement: [0, 0, free]},
+              {on: {nearest: [0, 1, 0]}, displacement: [0, free, free]}]
+watch: {mises: {stress: {region: all}, component: von_mises, take: largest}}
+"""
+PULLED = """constraints: [{on: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}, displacement: [0, 0, 0]}]
+loads: [{on: {plane: {point: [3, 0, 0], normal: [1, 0, 0]}}, traction: [0.01, 0, 0]}]
+watch: {end: {displacement: {plane: {point: [3, 0, 0], normal: [1, 0, 0]}}, component: x}}
+"""
+
+
+def watched(material, rest, order=2, mesh="file: bar.msh", ranks=1, large="off"):
+    write(folder, "case.yaml", f"mesh: {{{mesh}}}\nelement: {{order: {order}}}\nmaterials: [{{region: all, {material}}}]\n"
+          f"large_rotation: {large}\naccuracy: {{relative_residual: 1e-11}}\n{rest}")
+    done = run("solve", "case.yaml", "-q", "--json", "-", ranks=ranks, folder=folder)
+    check(done.exit_code == 0, done.errors)
+    return next(iter(json.loads(done.output)["watched"].values()))
+
+
+HEATED = "youngs_modulus: 1e3, poissons_ratio: %s, eigenstrain: {per_unit: %s, change: {field: T}}"
+FINER = "file: bar.msh, refine: 1"
+for nu, mesh, ranks in fewer(((0.3, "file: bar.msh", 3), (0.3, FINER, 1), (0.5, "file: bar.msh", 1))):
+    found = watched(HEATED % (nu, 1e-3), FREE, 2, mesh, ranks)["value"]
+    check(found < 1e-7 * 1e3 * 1e-3 * 30, f"a free bar, nu = {nu}, {mesh}, {ranks} ranks: {found}")
+found = watched(HEATED % (0.3, 1e-5), FREE, large="on")["value"]  # with E alpha T = 0.3 what is left is of second order
+check(found < 1e-3 * 1e3 * 1e-5 * 30, f"a free bar, large rotations: {found}")
+coarse, fine = (watched(HEATED % (0.3, 1e-3), FREE, 1, mesh)["value"] for mesh in ("file: bar.msh", FINER))
+check(0.2 * coarse < fine < 0.7 * coarse, f"linear tets: {coarse}, finer {fine}")
+for modulus, exact in (("{field: E}", 0.01 * math.log(4)), ("{field: E, power: 2}", 0.01 * 0.75)):
+    for order, mesh in fewer(((2, FINER), (2, "file: bar.msh"), (1, FINER))):
+        end = watched(f"youngs_modulus: {modulus}, poissons_ratio: 0", PULLED, order, mesh)
+        off = exact - end["value"]
+        check(abs(off) < 0.02 * exact and 0.7 * off < end["error"] < 1.3 * off, f"{modulus}, {order}, {mesh}: {end}, exact {exact}")
+
 # What is refused, where it stands.
+write(folder, "case.yaml", "mesh: {file: bar.msh}\nmaterials: [{region: all, youngs_modulus: {field: odd, power: 2}, poissons_ratio: 0}]\n" + PULLED)
+refused = run("check", "case.yaml", folder=folder)
+check(refused.exit_code == 2 and "none makes a Young's modulus in between" in refused.errors, refused.errors)
 write(folder, "bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}), **FIELDS}))
 for eigenstrain, mesh, words in (
         ("{field: swelling_}", "file: bar.msh", "there is no field 'swelling_' on the elements, or on the nodes; there is 'few', 'two', "),

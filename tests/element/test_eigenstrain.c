@@ -167,12 +167,69 @@ static void it_follows_the_axes(void **state)
     ost_field_destroy(&field);
 }
 
+/* Strains and factors at the vertices are linear between them: at each point of quadratic tets, in linear ones their
+ * mean; and C is spread to all points only if something differs between them. */
+static void it_varies_within_tets(void **state)
+{
+    const OstQuadrature *rule = &ost_tet_degree3;
+    const int32_t region[2] = {0, 0};
+    const OstGlobal label[2] = {1, 2};
+    const OstLocal tets[OST_SIMD_WIDTH] = {0, 1};
+    const double centroids[6] = {0};
+    double strains[48], factors[8];
+    OstMaterial material;
+    OstMaterialField *field = NULL;
+    OstElasticity elasticity, plain;
+    OstSimd places[3 * OST_MAX_POINTS] = {{0}};
+    for (int n = 0; n < 48; n++)
+        strains[n] = 0.01 * (n % 7) - 0.02 * (n % 5);
+    for (int n = 0; n < 8; n++)
+        factors[n] = 1.0 + 0.5 * n;
+    orthotropic_material(&material);
+    assert_success(ost_field_create(ctx, NULL, 1, &material, NULL, 2, region, label, centroids, NULL, &field));
+    ost_elasticity_clear(&plain);
+    ost_elasticity_gather(&plain, field, tets, rule->count, rule->point, places);
+    assert_success(ost_field_set_vertex_eigenstrain(field, NULL, 2, strains));
+    ost_elasticity_clear(&elasticity);
+    ost_elasticity_gather(&elasticity, field, tets, rule->count, rule->point, places);
+    assert_int_equal(elasticity.points, 1); /* none of it acts */
+    elasticity.eigen_share = 0.5;
+    for (int scaled = 0; scaled < 2; scaled++) {
+        if (scaled)
+            assert_success(ost_field_set_vertex_scale(field, 2, factors));
+        ost_elasticity_gather(&elasticity, field, tets, rule->count, rule->point, places);
+        assert_int_equal(elasticity.points, rule->count);
+        for (int q = 0; q < rule->count; q++)
+            for (int slot = 0; slot < 2; slot++) {
+                double factor = 0.0, strain[6] = {0.0};
+                for (int v = 0; v < 4; v++) {
+                    factor += rule->point[q].at[v] * factors[4 * slot + v];
+                    for (int p = 0; p < 6; p++)
+                        strain[p] += 0.5 * rule->point[q].at[v] * strains[24 * slot + 6 * v + p];
+                }
+                for (int p = 0; p < 6; p++)
+                    assert_close(elasticity.e0[q][p][slot], strain[p], 1e-15);
+                for (int n = 0; n < OST_ELASTICITY_COUNT; n++)
+                    assert_close(elasticity.c[q][n][slot], (scaled ? factor : 1.0) * plain.c[0][n][slot],
+                                 1e-14 * fabs(plain.c[0][0][0]));
+            }
+    }
+    ost_elasticity_gather(&elasticity, field, tets, 0, NULL, NULL);
+    assert_int_equal(elasticity.points, 1);
+    for (int p = 0; p < 6; p++)
+        assert_close(elasticity.e0[0][p][1],
+                     0.125 * (strains[24 + p] + strains[30 + p] + strains[36 + p] + strains[42 + p]), 1e-15);
+    assert_close(elasticity.c[0][0][1], 3.75 * plain.c[0][0][1], 1e-14 * plain.c[0][0][1]);
+    ost_field_destroy(&field);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_force_is_the_derivative_of_the_energy),
     cmocka_unit_test(energy_is_work),
     cmocka_unit_test(free_swelling_has_no_stress),
     cmocka_unit_test(the_magnitude_counts_the_eigenstrain),
     cmocka_unit_test(it_follows_the_axes),
+    cmocka_unit_test(it_varies_within_tets),
 };
 
 OST_TEST_MAIN(tests)

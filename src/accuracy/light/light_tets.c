@@ -82,6 +82,8 @@ static Keeping find_keeping_of_quadratic(const OstLightTets *tets, const OstMate
 {
     OstBatch batch;
     int differs = 0;
+    if (ost_field_scales_within(field))
+        return KEEP_NOT;
     for (int32_t region = 0; region < field->region_count; region++)
         differs |= field->region_varies[region] && ost_field_varies_within(field, region);
     if (!differs)
