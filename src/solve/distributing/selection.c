@@ -14,6 +14,9 @@
 /* A second moment of this share of the largest is none: the selection is flat. */
 static const double flat = 1e-12;
 
+/* A point this near to the centroid, beside the size of the selection, is there. */
+static const double near_centre = 1e-9;
+
 /* The step of differences by F, as a share of its largest second moment. */
 static const double step = 1e-5;
 
@@ -44,13 +47,13 @@ static OstStatus spread_on(const OstScene *scene, const OstLoad *load, const dou
     return status;
 }
 
-/* Along the principal axes. */
-static OstStatus find_axes(OstContext *ctx, const OstMesh *mesh, OstMovedSelection *selection)
+/* Along the principal axes, from the centroid. */
+static OstStatus find_axes(OstContext *ctx, const OstMesh *mesh, const double centre[3], OstMovedSelection *selection)
 {
     double moments[9] = {0.0}, values[3], vectors[9];
     for (size_t n = 0; n < (size_t)mesh->owned_nodes; n++)
         for (size_t k = 0; k < 9; k++)
-            moments[k] += mesh->coordinates[3 * n + k / 3] * selection->arm[3 * n + k % 3];
+            moments[k] += (mesh->coordinates[3 * n + k / 3] - centre[k / 3]) * selection->arm[3 * n + k % 3];
     OST_TRY(ost_sum(ctx, 9, moments));
     OST_TRY(ost_symmetric_eigen(ctx, 3, moments, values, vectors));
     for (int k = 0; k < 3; k++) {
@@ -63,6 +66,22 @@ static OstStatus find_axes(OstContext *ctx, const OstMesh *mesh, OstMovedSelecti
         ost_apply3(selection->axis, selection->arm + 3 * n, along);
         memcpy(selection->arm + 3 * n, along, sizeof along);
     }
+    return OST_SUCCESS;
+}
+
+/* A point at the centroid that does not turn moves with the mean displacement alone; other motions turn. */
+static OstStatus check_turning(const OstScene *scene, double area, OstMovedSelection *selection)
+{
+    const int *moved = selection->load->moved;
+    const double beside = near_centre * near_centre * selection->extent[0] / area;
+    if (!moved[3] && !moved[4] && !moved[5] && ost_dot3(selection->point, selection->point) <= beside)
+        selection->sums = 3;
+    else if (selection->sums < 9)
+        return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                         "%s:%d: the selection of this distributing coupling lies on one line, about which no rotation "
+                         "is known; select more, put 'at' at its centroid and give no rotation, or say large_rotation: "
+                         "off",
+                         scene->c->path, selection->load->line);
     return OST_SUCCESS;
 }
 
@@ -86,7 +105,8 @@ static OstStatus measure(const OstScene *scene, double *force, OstMovedSelection
         selection->arm[3 * n + 2] = -force[3 * n + 1];
     for (int i = 0; i < 3; i++)
         selection->point[i] = selection->load->at[i] - centre[i];
-    return find_axes(scene->ctx, scene->mesh, selection);
+    OST_TRY(find_axes(scene->ctx, scene->mesh, centre, selection));
+    return check_turning(scene, area, selection);
 }
 
 /* --- the motion --- */

@@ -27,7 +27,7 @@ struct OstTurnedCouplings {
     double *slope;        /* components × sums: c' */
     double *bend;         /* sums × sums: h_z */
     double *response;     /* sums × unknowns: K^-1 Y' */
-    double *compliance;   /* sums × sums: Y K^-1 Y'; 0 before the first correction */
+    double *compliance;   /* sums × sums: A = Y K^-1 Y', column by column; 0 before the first correction */
     double *unit, *stiff; /* components: the norm of the forces of a unit, and their size for a unit of motion */
 };
 
@@ -246,9 +246,9 @@ static int solve_dense(const OstTurnedCouplings *all, const double *start, doubl
             matrix[i + size * j] = i == j ? 1.0 : 0.0;
         for (int l = 0; l < n; l++) {
             for (int j = 0; j < n; j++)
-                matrix[i + size * j] -= a[n * i + l] * all->bend[n * l + j];
+                matrix[i + size * j] -= a[n * l + i] * all->bend[n * l + j];
             for (int k = 0; k < m; k++)
-                matrix[i + size * (n + k)] -= a[n * i + l] * all->slope[n * k + l];
+                matrix[i + size * (n + k)] -= a[n * l + i] * all->slope[n * k + l];
         }
     }
     for (int k = 0; k < m; k++) {
