@@ -411,10 +411,10 @@ static void find_pair(OstLightTets *tets, void *const *product)
         close_product(tets, force[k], product[k]);
 }
 
-/* Two by two. Without room for that one after the other. */
+/* Two by two where that pays, and where there is room for it. */
 static OstStatus find_all(OstLightTets *tets, int count, void *const *product)
 {
-    if (count > 1 && !tets->second)
+    if (BY_PAIRS && count > 1 && !tets->second)
         (void)OST_NEW(tets->mesh->ctx, &tets->second, 8 * (size_t)tets->mesh->node_count);
     int k = 0;
     for (; k + PAIR <= count && tets->second; k += PAIR)
