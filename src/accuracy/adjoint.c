@@ -509,6 +509,26 @@ const double *ost_adjoint_pressure(const OstAdjoint *adjoint)
     return adjoint->z_pressure;
 }
 
+/* What a solve that stopped early leaves of the quantity: the work of what is out of balance on z. */
+static OstStatus add_equations(const OstProblem *problem, const OstAdjoint *adjoint, double t, const double *u,
+                               double *error)
+{
+    double *force = NULL, *load = NULL, work = 0.0;
+    OstStatus status = OST_NEW(problem->ctx, &force, adjoint->nodes);
+    OST_THEN(OST_NEW(problem->ctx, &load, adjoint->nodes));
+    OST_TRY_DONE(ost_agree(problem->ctx, status));
+    OST_TRY_DONE(ost_problem_force(problem, t, u, force));
+    ost_problem_load(problem, t, u, load);
+    for (size_t i = 0; i < adjoint->nodes; i++)
+        work += (load[i] - force[i]) * adjoint->z[i];
+    OST_TRY_DONE(ost_sum(problem->ctx, 1, &work));
+    *error += work;
+done:
+    OST_FREE(force);
+    OST_FREE(load);
+    return status;
+}
+
 OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double t, const double *u,
                                 const OstInterest *interest, double share, double *error, double *tet_share)
 {
@@ -522,6 +542,8 @@ OstStatus ost_estimate_interest(OstEstimate *estimate, OstSolver *solver, double
         OST_THEN(ost_adjoint_error(adjoint, estimate, t, u, tet_share, error));
         if (!interest->moved) /* unlike a reaction, which is the work of u on z, on which the exact error does none */
             *error = -*error;
+        if (interest->stopped && !problem->pressures)
+            OST_THEN(add_equations(problem, adjoint, t, u, error));
         *error += copysign(interest->doubt, *error);
         OST_THEN(share_interest(problem, of_adjoint, *error, tet_share));
     }

@@ -18,6 +18,7 @@ typedef struct OstInterest {
     double value;
     double doubt; /* of a reaction: the part that other supports of the same nodes may bear as well */
     double size;  /* of a reaction: the sum of the lengths of the nodes' forces, or moments */
+    int stopped;  /* the caller's, of a displacement: what the equations leave of it is a part of its error */
 } OstInterest;
 
 /* Collective. Makes that of a watched displacement or reaction, or of the mean over a region of a measure that is

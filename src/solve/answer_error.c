@@ -205,6 +205,7 @@ static OstStatus estimate_interest(OstAnalysis *analysis, OstEstimate *estimate,
     } else {
         OstInterest interest;
         OstStatus status = ost_interest_create(&state, watch, t, result->displacement, &interest);
+        interest.stopped = watch->kind == OST_WATCH_DISPLACEMENT && result->solve.stopped;
         if (status == OST_SUCCESS && !by_statics.known)
             status = solve_interest(analysis, estimate, t, &interest, result);
         found->value = interest.value;

@@ -118,6 +118,7 @@ static void two_values_tell_how_much_an_estimate_may_miss(void **state)
     assert_true(fabs(1.0 - last[0].value / exact) < request && fabs(1.0 - last[0].value / exact) > 0.3 * request);
     assert_int_equal(last[0].unknowns, last[1].unknowns);
     assert_true(fabs(last[0].value - last[1].value) < 0.05 * fabs(last[1].off));
+    assert_true(fabs(last[0].value + last[0].off - last[1].value - last[1].off) < 0.005 * fabs(last[1].off));
     assert_true(2 * last[0].iterations < last[1].iterations);
 }
 
