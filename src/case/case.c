@@ -66,8 +66,6 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
     return OST_SUCCESS;
 }
 
-static const double half_a_turn = 3.141592653589793;
-
 /* Of a rotation the nodes tell the shortest vector alone; a longer one is known where all of it is given. */
 static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 {
@@ -77,7 +75,7 @@ static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
         for (int k = 0; k < 3 && constraint->kind == OST_CONSTRAIN_RIGID; k++)
             square += constraint->turn_constrained[k] ? constraint->rotation[k] * constraint->rotation[k] : 0.0;
         if (c->large_rotation != OST_LARGE_ROTATION_OFF && constraint->kind == OST_CONSTRAIN_RIGID &&
-            ost_constraint_gives_part(constraint) && square > half_a_turn * half_a_turn)
+            ost_constraint_gives_part(constraint) && square > M_PI * M_PI)
             return OST_RAISE(
                 yaml->ctx, OST_INVALID_INPUT,
                 "%s:%d: a rotation that is given in part has a vector of at most half a turn (3.1416), found "
