@@ -72,7 +72,23 @@ static void what_rounding_has_cost_is_corrected(void **state)
     assert_true(solved >= 3 * count / 4);
 }
 
+static void a_sample_is_so_many_of_each_shape_and_the_same_each_time(void **state)
+{
+    const HardRun run = {.wanted = {1, 1}, .size = 1000, .sample = 2};
+    HardPoint *points[2] = {NULL};
+    int count[2];
+    for (int k = 0; k < 2; k++)
+        assert_success(hard_points(ctx, &run, &count[k], &points[k]));
+    assert_int_equal(count[0], 4);
+    assert_int_equal(count[1], 4);
+    assert_memory_equal(points[0], points[1], 4 * sizeof(HardPoint));
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(points[0][i].shape, i / 2);
+    OST_FREE(points[0], points[1]);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_sample_is_so_many_of_each_shape_and_the_same_each_time),
     cmocka_unit_test(what_rounding_has_cost_is_corrected),
     cmocka_unit_test(what_the_stiffness_has_lost_is_refused_or_corrected),
 };

@@ -11,12 +11,12 @@ SIZE = 6000
 SPREAD = 6
 
 
-def grid(folder, ranks, *asked, size=SIZE):
+def grid(folder, ranks, *asked):
     path = os.path.join(folder, f"size-{ranks}.json")
-    finished = run("--size", str(size), "--json", path, *asked, ranks=ranks, timeout=580, program=GRID)
+    finished = run("--size", str(SIZE), "--json", path, *asked, ranks=ranks, timeout=580, program=GRID)
     with open(path) as stream:
         document = json.load(stream)
-    check(document["ranks"] == ranks and document["size"] == size, "another run than was asked for")
+    check(document["ranks"] == ranks and document["size"] == SIZE, "another run than was asked for")
     check((finished.exit_code == 0) == document["passed"], f"exit {finished.exit_code}, passed {document['passed']}")
     return {point["point"]: point for point in document["points"]}
 
@@ -41,8 +41,6 @@ def main():
     check(len({point["row"] for point in one.values()}) == 5, "Poisson's ratios are missing")
     for name in two:
         check(two[name]["iterations"] <= 2 * one[name]["iterations"] + 20, f"{name}: {two[name]['iterations']} iterations on two ranks")
-    few, again = (grid(folder, 1, "--sample", "1", "tube", "beam", size=1000) for _ in range(2))
-    check(len(few) == 2 and list(few) == list(again), f"the sample is not one body a shape, the same: {list(few)}, {list(again)}")
     every = run("--size", "1e9", program=GRID)
     check(every.exit_code == 2 and "1e8" in every.errors, "a size beyond all memory")
 
