@@ -118,7 +118,7 @@ def passes_on_the_exit_status(folder, script):
 
 # Like the real one, mpirun ends its ranks before they can speak, if it is asked to.
 SLOW = """#!/bin/sh
-sh -c 'trap "echo the rank stops >&2; exit 130" TERM; echo up; while :; do sleep 0.05; done' &
+sh -c 'trap "echo the rank stops >&2; exit 130" TERM; echo up; for _ in $(seq 1200); do sleep 0.05; done' &
 trap 'kill -9 $!; echo mpirun stops >&2; exit 1' INT TERM
 wait $!
 """
