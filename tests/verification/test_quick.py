@@ -35,12 +35,12 @@ def some_coarse_meshes_pass():
 
 def mistakes_fail(folder):
     """A sign, a factor, a wrong material, a wrong shear modulus, an axis that points elsewhere."""
-    fails_when(folder, "tube-lekhnitskii", "pressure: 1}\naccuracy", "pressure: -1}\naccuracy")
+    fails_when(folder, "cylinder-nu-3", "inner}, pressure: 1}", "inner}, pressure: -1}")
     fails_when(folder, "axial-pull", "total_force: [2,", "total_force: [2.0000001,")
     fails_when(folder, "hanging-bar", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.80]")
     fails_when(folder, "tube-lekhnitskii", "order: [radial, tangential, axial]", "order: [tangential, radial, axial]")
     fails_when(folder, "torsion-1-5", "scale: 2e4", "scale: 1e4")
-    fails_when(folder, "cantilever-shear-20", "expected: tip_deflection", "expected: 4.2")
+    fails_when(folder, "hanging-bar", "expected: end_displacement", "expected: 4.2")
     fails_when(folder, "given-displacement", "[0.02, free, free]", "[0.0200001, free, free]")
 
 
