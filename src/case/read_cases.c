@@ -60,7 +60,8 @@ static void drop_replaced(OstCase *c, int before)
         else
             c->constraints[kept++] = c->constraints[i];
     }
-    memset(c->constraints + kept, 0, (size_t)(c->constraint_count - kept) * sizeof *c->constraints); /* moved from */
+    for (int i = kept; i < c->constraint_count; i++) /* moved from */
+        memset(&c->constraints[i], 0, sizeof c->constraints[i]);
     c->constraint_count = kept;
 }
 
