@@ -2,6 +2,7 @@
 """The scenes of the paper on coarse meshes: they solve without a warning and show what the paper shows; and their pages
 hold the numbers on record."""
 import os
+import subprocess
 
 from drawn import load_script, pictures, record
 from pages import check
@@ -48,14 +49,15 @@ isotropic, orthotropic = solve("fern")[0]
 check(abs(orthotropic["twist of the stem"]) > 4 * abs(isotropic["twist of the stem"]), f"{isotropic} {orthotropic}")
 
 # The beast's mesh is small as it is: a case of each figure is compared with what was drawn. Gmsh's meshes differ
-# from version to version: those of Debian 12 and 13 by 3 % of the head's way.
+# from version to version: the head's way by 3 % between that of Debian 12, which the pictures are from, and of Debian 13.
+same_gmsh = subprocess.run(["gmsh", "--version"], capture_output=True, text=True).stderr.strip() == "4.8.4"
 gallery.SCENES["beast"] = [figure._replace(cases=figure.cases[1:2]) for figure in gallery.SCENES["beast"]]
 found, warnings = gallery.make_scene("beast", program, True, None)
 check(no_other_than_coarse(warnings), f"beast warns: {warnings}")
 for name, numbers in found.items():
     (title, row), = numbers.items()
     old = record[name + ".png"]["numbers"][title]
-    differences = pictures.differences({**old, "CPU seconds": row["CPU seconds"]}, row, 0.05)
+    differences = pictures.differences({**old, "CPU seconds": row["CPU seconds"]}, row, 0.02 if same_gmsh else 0.05)
     check(not differences, f"docs/pictures/{name}.png is stale (scripts/gallery beast):\n" + "\n".join(differences))
 volumes = [row["volume"] for title, row in record["beast-volume.png"]["numbers"].items() if title.startswith("nu")]
 check(volumes == sorted(volumes, reverse=True), f"the volume changes by {volumes}")

@@ -134,8 +134,13 @@ OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstRe
             return OST_SUCCESS;
         OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
         if (problem->pressures && modes.softening[0] >= aim.least) { /* but they may hold the body */
+            const double most = modes.softening[0];
             aim.mixed = 1;
-            OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
+            const OstStatus status = ost_modes_find(problem, solver, result, &aim, NULL, &modes);
+            if (status == OST_NOT_CONVERGED) /* Newton's method tells */
+                result->newton.linear_error = fmax(result->newton.linear_error, most);
+            if (status != OST_SUCCESS)
+                return status == OST_NOT_CONVERGED ? OST_SUCCESS : status;
         }
         if (!(modes.softening[0] >= aim.least))
             return OST_SUCCESS;
