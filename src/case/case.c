@@ -91,10 +91,11 @@ static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
     for (int i = 0; i < c->load_count; i++) {
         const char *without = c->path_steps > 0 ? "path" : c->free_body ? "constraints: free_body" : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
-            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
-                             "%s:%d: a distributing coupling moves a body that is constrained elsewhere, to its end at "
-                             "once; leave out '%s'",
-                             yaml->path, c->loads[i].line, without);
+            return OST_RAISE(
+                yaml->ctx, OST_INVALID_INPUT,
+                "%s:%d: a distributing coupling can be moved neither along a path, as a 'rigid' face can, nor "
+                "on a free body; leave out '%s'",
+                yaml->path, c->loads[i].line, without);
         const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
