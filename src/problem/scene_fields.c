@@ -191,7 +191,11 @@ static OstStatus check_modulus(const OstScene *scene, const double law[3], int p
     for (int place = 0; place < places; place++) {
         const double number = numbers[place], value = ost_scale_by_law(law, number);
         signs |= number > 0.0 ? 1 : 2;
-        if (!(value > 0.0 && isfinite(value) && isfinite(number)))
+        if (!isfinite(number))
+            return OST_RAISE(scene->ctx, OST_INVALID_INPUT,
+                             "%g is no number; mend the field, or give these tets a region with a modulus of its own",
+                             number);
+        if (!(value > 0.0 && isfinite(value)))
             return OST_RAISE(
                 scene->ctx, OST_INVALID_INPUT,
                 "%g makes a Young's modulus of %g, expected one above 0; `least` is taken where it would be smaller",

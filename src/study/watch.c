@@ -385,6 +385,13 @@ static OstStatus find_least_change(const OstResult *result, const OstWatch *watc
     return OST_SUCCESS;
 }
 
+/* A sum of forces that statics alone gives stays as it is when the body turns, if the loads keep their directions. */
+static int is_same_once_turned(const OstScene *scene, const OstWatch *watch, const OstWatched *watched)
+{
+    return watch->kind == OST_WATCH_REACTION && !watch->of_moment && watched->exact &&
+           !ost_effect_on(&scene->plan.effects, OST_EFFECT_FOLLOWER_PRESSURE);
+}
+
 /* Linear theory is off by a share of the largest displacement: of a small component beside a large one, as the
  * shortening of a beam that bends, or of the moment of a column that leans, that may be all. */
 static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *result, const OstWatch *watch,
@@ -394,7 +401,7 @@ static OstStatus warn_of_linear_theory(const OstScene *scene, const OstResult *r
     const int may_differ =
         watch->kind == OST_WATCH_DISPLACEMENT || (watch->kind == OST_WATCH_REACTION && result->left_out_reaction);
     double change = newton->linear_error * watched->scale, least;
-    if (!newton->judged || newton->used || !may_differ)
+    if (!newton->judged || newton->used || !may_differ || is_same_once_turned(scene, watch, watched))
         return OST_SUCCESS;
     if (!result->left_out) {
         if (newton->linear_error > worth_words && change > most_off * fabs(watched->value))

@@ -171,7 +171,11 @@ for modulus, order, mesh, exact in fewer((("{field: E, power: 2}", 2, FINER, 0.0
 write(folder, "case.yaml", "mesh: {file: bar.msh}\nmaterials: [{region: all, youngs_modulus: {field: odd, power: 2}, poissons_ratio: 0}]\n" + PULLED)
 refused = run("check", "case.yaml", folder=folder)
 check(refused.exit_code == 2 and "none makes a Young's modulus in between" in refused.errors, refused.errors)
-write(folder, "bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}), **FIELDS}))
+write(folder, "bar.msh", msh({"few": (3, dict(list(along.items())[:5])), "two": (2, {tag: (1, 2) for tag in along}),
+                              "some": (1, {tag: (5,) for tag in list(along)[:5]}), **FIELDS}))
+write(folder, "case.yaml", "mesh: {file: bar.msh}\nmaterials: [{region: all, youngs_modulus: {field: some}, poissons_ratio: 0}]\n" + PULLED)
+refused = run("check", "case.yaml", folder=folder)
+check(refused.exit_code == 2 and "nan is no number" in refused.errors, refused.errors)
 for eigenstrain, mesh, words in (
         ("{field: swelling_}", "file: bar.msh", "there is no field 'swelling_' on the elements, or on the nodes; there is 'few', 'two', "),
         ("{field: few}", "file: bar.msh", "the field 'few' has no number for tet 105 of region 'lower'"),

@@ -238,7 +238,7 @@ turning = answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES))
 for ranks in fewer([3]):
     same(answer(text(MUSCLE + ", fibre: {field: fibre}", TWO_CUBES), ranks), turning, f"a field of fibres on {ranks} ranks")
 
-# At the vertices of a cube, directions about the line x = -1, y = 0, each of either sense: they vary within quadratic tets,
+# At the vertices of a cube, directions about the line x = -1, y = 0, each of either sense and some length: they vary within quadratic tets,
 # also those of a finer mesh. (Uniform in each tet, they were 10 % off.)
 
 
@@ -251,7 +251,7 @@ def turning_cube(count):
     radial = [[(x + 1) / math.hypot(x + 1, y), y / math.hypot(x + 1, y), 0] for x, y, _ in points]
     tangential = [[-r[1], r[0], 0] for r in radial]
     fields = {"radial": [[x * (-1) ** n for x in r] for n, r in enumerate(radial)],
-              "tangential": [[2 * x * (-1) ** (n // 3) for x in t] for n, t in enumerate(tangential)],
+              "tangential": [[(1 + n % 5) * x * (-1) ** (n // 3) for x in t] for n, t in enumerate(tangential)],
               "frame": [r + t + [0, 0, 1] for r, t in zip(radial, tangential)]}
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(points), *(f"{n + 1} {x} {y} {z}" for n, (x, y, z) in enumerate(points)),
              "$EndNodes", "$Elements", len(tets), *(f"{n + 1} 4 0 " + " ".join(map(str, tet)) for n, tet in enumerate(tets)), "$EndElements"]

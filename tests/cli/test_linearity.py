@@ -122,6 +122,7 @@ loads: [{on: {boundary: zmax}, total_force: [ACROSS, 0, -15000]}]
 watch:
   top: {displacement: {nearest: [0.05, 0.05, 3]}, component: x}
   foot: {reaction: {boundary: zmin}, about: [0.05, 0.05, 0], component: y}
+  across: {reaction: {boundary: zmin}, component: x}
 """
 
 
@@ -145,6 +146,7 @@ def column(folder):
         check(not newton["newton"] and newton["linear_change"] < 0.02, f"{newton}")
         words = [text for text in report["warnings"] if "'foot' is -0.9 by linear theory, and about -1." in text]
         check(len(words) == 1 and any("'top' is" in text for text in report["warnings"]), f"{report['warnings']}")
+        check(not any("'across' is" in text for text in report["warnings"]), f"a sum of dead loads stays: {report['warnings']}")
 
 
 # A body that is rigid beside its foundation turns by m = 0.06 under half of it: stress does -2 m² on that, of 0.16 that

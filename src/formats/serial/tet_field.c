@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "formats/serial/formats.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -61,6 +62,17 @@ static double dot(size_t width, const double *a, const double *b)
     return sum;
 }
 
+/* Of directions, three numbers each: their lengths say nothing, but would weigh them where a tet's vertices are added.
+ */
+static void make_unit(size_t width, double *directions)
+{
+    for (size_t k = 0; k + 3 <= width; k += 3) {
+        const double length = sqrt(dot(3, directions + k, directions + k));
+        for (size_t i = k; i < k + 3 && length > 0.0; i++)
+            directions[i] /= length;
+    }
+}
+
 /* What a field has at the vertices of a tet. Directions are turned as the first one that there is: a fibre has no
  * sense. Returns whether a direction is missing. */
 static int take_vertices(const OstFileField *field, const OstGlobal *nodes, unsigned use, double *at_vertices)
@@ -79,6 +91,8 @@ static int take_vertices(const OstFileField *field, const OstGlobal *nodes, unsi
         }
         for (size_t k = 0; k < width; k++)
             at_vertices[width * (size_t)v + k] = sense * value[k];
+        if ((use & OST_FIELD_OF_DIRECTIONS) != 0)
+            make_unit(width, at_vertices + width * (size_t)v);
     }
     return misses;
 }
