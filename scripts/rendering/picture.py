@@ -19,18 +19,20 @@ from .view import load_arrows
 
 
 def compose(body, view, asked):
-    """One body: its shape, and beside it the section."""
+    """One body: its shape, and beside it the section, if one is asked for."""
     width, height = asked.size
     figure = make_figure(asked, [body], width, height)
-    section = choose_section(asked.section, body)
     bottom, top = 0.15, 0.88
     needed = (top - bottom) * height / width * view.width / view.height
-    share = min(max(needed + 0.06, 0.34), 0.6)  # of the width, for the shape
+    share = min(max(needed + 0.06, 0.34), 0.6) if asked.section != "none" else 0.98  # of the width, for the shape
     show(figure, [0.03, bottom, share - 0.04, top - bottom], [body], 0, view, asked)
-    plane = figure.add_axes([share + 0.09, bottom + 0.03, 0.88 - share, top - bottom - 0.03])
-    draw_section(plane, body, section, shade_of([body], asked.field))
     times = times_of(body)
     caption(figure, 0.01 + share / 2, 0.915, "Body at rest" if body.envelope else f"Deformed shape{times}", fontsize=12)
+    if asked.section == "none":
+        return figure
+    section = choose_section(asked.section, body)
+    plane = figure.add_axes([share + 0.09, bottom + 0.03, 0.88 - share, top - bottom - 0.03])
+    draw_section(plane, body, section, shade_of([body], asked.field))
     where = f"Section {'xyz'[section.axis]} = {section.value:g}"
     caption(figure, share + 0.09 + (0.88 - share) / 2, 0.915, where + times, fontsize=12)
     return figure

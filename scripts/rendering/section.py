@@ -16,17 +16,25 @@ from .common import FAINT, INK, Refusal
 Section = namedtuple("Section", "axis value")
 
 
+def half_way(points):
+    """Across the longest side."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    axis = int(np.argmax(high - low))
+    middle = 0.5 * (low[axis] + high[axis])
+    return Section(axis, middle if abs(middle) > 1e-9 * (high[axis] - low[axis]) else 0.0)
+
+
 def choose_section(asked, body):
+    """By the body before, as results of several steps then show the same place; by the one that has moved if that is not met."""
     if asked == "auto":
-        low, high = body.rest.min(axis=0), body.rest.max(axis=0)
-        axis = int(np.argmax(high - low))
-        middle = 0.5 * (low[axis] + high[axis])
-        return Section(axis, middle if abs(middle) > 1e-9 * (high[axis] - low[axis]) else 0.0)
+        section = half_way(body.rest)
+        along = body.moved[:, section.axis]
+        return section if along.min() < section.value < along.max() else half_way(body.moved)
     name, _, value = asked.partition("=")
     try:
         return Section("xyz".index(name.strip().lower() or "?"), float(value))
     except ValueError:
-        raise Refusal(f"--section {asked}: expected an axis and where, as in y=5, or auto") from None
+        raise Refusal(f"--section {asked}: expected an axis and where, as in y=5, auto or none") from None
 
 
 def cut(grid, section):

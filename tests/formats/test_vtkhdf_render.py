@@ -179,7 +179,8 @@ output: {fields: [displacement, load, reaction, material_stress]}
 
     def test_a_section_through_the_origin_is_at_zero(self):
         for low, high, middle in ((-1.0, 1.0 - 1e-13, 0.0), (-1.0, 2.0, 0.5)):
-            body = SimpleNamespace(rest=numpy.array([[low, 0, 0], [high, 0.1, 0.1]]))
+            rest = numpy.array([[low, 0, 0], [high, 0.1, 0.1]])
+            body = SimpleNamespace(rest=rest, moved=rest)
             self.assertEqual(choose_section("auto", body).value, middle)
 
     def test_fibres_lie_on_the_surface_and_turn_with_the_body(self):
@@ -218,6 +219,14 @@ output: {fields: [displacement, load, reaction, material_stress]}
         with open(pvd, "w") as stream:
             stream.write("no list")
         self.assertIn("cannot be read as a list of results", self.refusal(pvd))
+
+    def test_a_section_is_found_through_what_has_swung_away(self):
+        rest = numpy.array([[0.0, 0, 0], [10, 0, 0], [0, 1, 0]])
+        swung = numpy.array([[0.0, 0, 0], [3, 0, -9], [0, 1, 0]])
+        self.assertEqual(choose_section("auto", SimpleNamespace(rest=rest, moved=rest)), (0, 5))
+        self.assertEqual(choose_section("auto", SimpleNamespace(rest=rest, moved=swung)), (2, -4.5))
+        done = self.render(self.result, os.path.join(self.folder.name, "alone.png"), "--section", "none")
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_what_cannot_be_drawn_is_refused_in_words(self):
         self.assertIn("no such file", self.refusal("nothing.vtkhdf"))

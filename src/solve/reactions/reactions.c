@@ -184,15 +184,31 @@ static OstStatus work_of(const Search *search, const double *added, double besid
     return ost_sum(search->problem->ctx, 1, work);
 }
 
+/* Do loads act on nodes? */
+static OstStatus is_loaded(const OstProblem *problem, double t, const double *u, int *yes)
+{
+    const size_t count = 3 * (size_t)problem->mesh->owned_nodes;
+    double *load = NULL;
+    *yes = 0;
+    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &load, count)));
+    ost_problem_load(problem, t, u, load);
+    for (size_t i = 0; i < count && !*yes; i++)
+        *yes = load[i] != 0.0;
+    OST_FREE(load);
+    return ost_max_ints(problem->ctx, 1, yes);
+}
+
 /* Statics alone gives the reaction where the supports allow what the rigid motion is beside the given one: the length
- * of a vector from its three parts. Where rotations are large, the displacement is in the arms of moments, and in
- * pressure that follows. */
+ * of a vector from its three parts. Where rotations are large, the displacement is in the arms of loads' moments, and
+ * in pressure that follows. */
 static OstStatus find_by_statics(const Search *whole, double t, const double *u, OstWatchedReaction *found)
 {
     const int is_length = whole->watch->component == OST_WATCH_LENGTH;
     double before[3] = {0.0}, exact[3] = {0.0};
-    const int depends_on_u =
-        !ost_problem_is_linear(whole->problem) && (whole->watch->of_moment || whole->problem->follower);
+    const int turns = !ost_problem_is_linear(whole->problem);
+    int depends_on_u = turns && whole->problem->follower;
+    if (turns && whole->watch->of_moment && !depends_on_u)
+        OST_TRY(is_loaded(whole->problem, t, u, &depends_on_u));
     int yes = !depends_on_u;
     for (int axis = 0; axis < 3 && yes; axis++) {
         OstWatch part = *whole->watch;
