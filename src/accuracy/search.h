@@ -37,6 +37,8 @@ typedef struct OstEstimate {
     int has_factor;      /* of linear theory */
     int knows_orders;    /* do the orders of u tell what orders above the next add to e? */
     int misses;          /* do stiff directions cross quadratic tets, so that orders above are missed? */
+    double per_left;     /* what later steps add to |e|², over what is left of r'B r */
+    int is_flat;         /* are the tets flat? */
     OstEarlier *earlier; /* what was found for other loads; or NULL */
     int keeps;           /* is what is found kept, for loads that are sums? */
     OstKeptError kept;

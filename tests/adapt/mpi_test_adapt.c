@@ -62,7 +62,7 @@ static void a_request_is_met_and_not_by_far(void **state)
 /* Where stiff directions cross the tets an estimate alone finds two thirds of the error; what the last levels gained
  * tells the rest. The energy that is not known is that of the finer answer, with its own error added. */
 #define CROSSED                                                                         \
-    "mesh: {block: {size: [9.42, 1, 1.3], divisions: [4, 2, 1]}}\n"                     \
+    "mesh: {block: {size: [9.42, 1, 1.3], divisions: [6, 2, 2]}}\n"                     \
     "materials: [{region: all, youngs_modulus: [1e6, 1e8, 1e6], poissons_ratio: 0.3,\n" \
     "             axes: {rotation: {axis: [0.58, -0.81, 1], degrees: 12}}}]\n"          \
     "constraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\n"                  \
