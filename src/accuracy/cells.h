@@ -110,32 +110,21 @@ static inline void gather_functions(const Cells *cells, const float *values, Ost
         }
 }
 
-static inline void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const OstSimd *at_nodes,
-                                double *force)
-{
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[slot][a];
-            for (int i = 0; i < 3 && node < owned; i++)
-                force[3 * (size_t)node + (size_t)i] += at_nodes[3 * a + i][slot];
-        }
-}
-
 /* Takes forces of a state off those on the functions: 3 numbers each. */
 static inline void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
                                   double *of_state)
 {
+    double *of_function[OST_SIMD_WIDTH], nowhere[3] = {0.0};
     for (int k = 0; k < cells->functions; k++) {
         OstSimd turned[3];
         for (int i = 0; i < 3; i++)
-            turned[i] = cells->turn[k] * at_functions[3 * k + i];
-        for (int slot = 0; slot < cells->batch.count; slot++) {
+            turned[i] = -cells->turn[k] * at_functions[3 * k + i];
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             const OstLocal function = cells->function[slot][k];
-            if (!ost_complement_owns(operator->complement, function))
-                continue;
-            for (int i = 0; i < 3; i++)
-                of_state[3 * (size_t)function + (size_t)i] -= turned[i][slot];
+            const int counts = slot < cells->batch.count && ost_complement_owns(operator->complement, function);
+            of_function[slot] = counts ? of_state + 3 * (size_t)function : nowhere;
         }
+        ost_simd_scatter3(turned, of_function);
     }
 }
 

@@ -238,7 +238,7 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += own_work(cells, mesh->owned_tets, &work);
     if (sum->force)
-        add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
+        ost_batch_scatter_vectors(&cells->batch, cells->nodes, at_nodes, 1.0, mesh->owned_nodes, sum->force);
 }
 
 /* Keeps the points of tets without a quicker way, which all displacements of a visit share. */
@@ -367,7 +367,8 @@ static void add_product(const Cells *cells, const OstElement *element, double fa
     for (int n = 0; n < 3 * cells->functions; n++)
         at_functions[n] *= factor;
     add_to_functions(cells, at_functions, product->of_functions);
-    add_to_nodes(&cells->batch, cells->nodes, product->operator->problem->mesh->owned_nodes, at_nodes, product->force);
+    ost_batch_scatter_vectors(&cells->batch, cells->nodes, at_nodes, 1.0, product->operator->problem->mesh->owned_nodes,
+                              product->force);
 }
 
 /* OstServe: of one complement. */

@@ -86,7 +86,7 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
                                    double constrained[3])
 {
     double projector[9], prescribed[3], free_part[3];
-    if (ost_supports_get(supports, node, projector, prescribed) == 0) {
+    if (supports->index[node] < 0 || ost_supports_get(supports, node, projector, prescribed) == 0) {
         memset(constrained, 0, 3 * sizeof *constrained);
         return;
     }

@@ -128,7 +128,13 @@ static void gather_at_nodes(const OstResult *result, const OstElement *element, 
                           ost_tet_nodes.point, places);
 }
 
-/* Stress at the nodes of a batch's tets, 6 numbers a node. */
+/* Do a tet's nodes have one stress? */
+static int is_uniform(const OstResult *result, const OstElement *element)
+{
+    return element->nodes == 4 && result->formulation == OST_FORMULATION_LINEAR;
+}
+
+/* Stress at the nodes of a batch's tets, 6 numbers a node; at the first alone where it is uniform. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
                             const OstElasticity *at_nodes, const OstKeptPoints *kept, OstSimd *stress)
 {
@@ -144,7 +150,7 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     element->nodal_strain(batch->x, kept, u, strain);
     if (at_nodes->by_mean)
         element->means(batch->x, &batch->elasticity, u, &means);
-    for (int a = 0; a < element->nodes; a++) {
+    for (int a = 0; a < (element->nodes == 4 ? 1 : element->nodes); a++) {
         const int at = ost_elasticity_at(at_nodes, a);
         OstSimd elastic[6];
         ost_elastic_strain(at_nodes, at, strain + 6 * a, elastic);
@@ -174,7 +180,7 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
     gather_at_nodes(result, element, &batch, &at_nodes, &kept);
     stress_of_batch(result, element, &batch, &at_nodes, &kept, all);
     for (int n = 0; n < 6 * element->nodes; n++)
-        stress[n] = all[n][0];
+        stress[n] = all[is_uniform(result, element) ? n % 6 : n][0];
 }
 
 /* Stress at the points of a rule, 6 numbers each. */
@@ -327,13 +333,24 @@ static void add_volumes(const OstMesh *mesh, int nodes, const OstBatch *batch, c
     }
 }
 
-static void add_batch(int nodes, const OstBatch *batch, const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES],
-                      const OstSimd *stress, double *sum)
+/* Nodes elsewhere have no place in the sum. */
+static void add_batch(int nodes, int uniform, const OstBatch *batch,
+                      const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES], const OstSimd *stress, double *sum)
 {
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++)
-            for (int p = 0; p < 6 && share[slot][a] > 0.0; p++) /* nodes elsewhere have no place in the sum */
-                sum[6 * (size_t)batch->node[slot][a] + (size_t)p] += share[slot][a] * stress[6 * a + p][slot];
+    OstSimdFour first[OST_SIMD_WIDTH], last[OST_SIMD_WIDTH]; /* four numbers and two */
+    for (int a = 0; a < nodes; a++) {
+        if (a == 0 || !uniform) {
+            ost_simd_rows(4, stress + 6 * a, first);
+            ost_simd_rows(2, stress + 6 * a + 4, last);
+        }
+        for (int slot = 0; slot < batch->count; slot++) {
+            double *at_node = sum + 6 * (size_t)batch->node[slot][a];
+            if (!(share[slot][a] > 0.0))
+                continue;
+            *(OstSimdFour *)at_node += share[slot][a] * first[slot];
+            *(OstSimdTwo *)(at_node + 4) += share[slot][a] * __builtin_shufflevector(last[slot], last[slot], 0, 1);
+        }
+    }
 }
 
 static void average(int count, void *const *request, const Around *around)
@@ -359,7 +376,7 @@ static void average(int count, void *const *request, const Around *around)
             const Request *one = request[k];
             OstSimd stress[6 * OST_MAX_TET_NODES];
             stress_of_batch(one->result, element, &batch, &at_nodes, &kept, stress);
-            add_batch(element->nodes, &batch, share, stress, one->stress);
+            add_batch(element->nodes, is_uniform(one->result, element), &batch, share, stress, one->stress);
         }
     }
     for (int k = 0; k < count; k++)
