@@ -59,20 +59,22 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
     ost_stretch_stress(elasticity->stretch_at ? elasticity->stretch_at[q] : tensor, elasticity->shear, strain, stress);
 }
 
-/* moment = integrals of the stress times each product by quadrature, of a C that varies. */
+/* moment = integrals of the stress times each product by quadrature, which is ost_tet_degree5, of a C that varies. */
 static inline void integrate_points(const OstSimd *x, const Straight *tet, const OstElasticity *elasticity,
                                     const OstQuadrature *rule, OstSimd strain[PRODUCTS][6], OstSimd moment[PRODUCTS][6])
 {
-    memset(moment, 0, PRODUCTS * sizeof *moment);
+    OstSimd sum[SUMS][6], of_stress[SUMS][6];
+    add_up(strain, sum);
+    memset(of_stress, 0, sizeof of_stress);
     for (int q = 0; q < rule->count; q++) {
         const OstSimd weight = rule->point[q].weight * tet->volume;
+        const Mix mix = find_mix(q);
         OstSimd here[6], stress[6];
-        double product[PRODUCTS];
-        find_products(rule->point[q].at, product);
-        find_strain_at(product, strain, here);
+        find_strain_at(&mix, sum, here);
         find_stress(x, elasticity, rule, q, here, stress);
-        add_moments(product, &weight, stress, moment);
+        add_moments(&mix, &weight, stress, of_stress);
     }
+    hand_out_sums(of_stress, moment);
 }
 
 /* Of a uniform C. */
@@ -158,6 +160,15 @@ static inline void find_point_strain(const OstSimd inverse[9], const OstSimd gro
             slope[i][k] =
                 growth[3 * i] * inverse[k] + growth[3 * i + 1] * inverse[3 + k] + growth[3 * i + 2] * inverse[6 + k];
     ost_strain_of_slope(slope, strain);
+}
+
+/* The products at a point of a rule. */
+static inline void find_products(const double at[VERTICES], double product[PRODUCTS])
+{
+    for (int a = 0; a < VERTICES; a++)
+        product[a] = (double)(at[a] * at[a]);
+    for (int e = 0; e < EDGES; e++)
+        product[VERTICES + e] = (double)(at[ost_tet_edge[e][0]] * at[ost_tet_edge[e][1]]);
 }
 
 /* How functions grow with coordinates are products of two of these: of the stress, times J^-1, their moments are all
