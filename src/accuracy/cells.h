@@ -33,6 +33,7 @@ typedef struct Cells {
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
     const OstEvaluated *evaluated;      /* at the rule's points; NULL: not kept */
+    const OstCurvedPoint *curved;       /* the same of curved tets that are nothing else */
     OstSimd stretch[OST_MAX_POINTS][6]; /* where axes are known by their line alone: elasticity.stretch_at */
     const double *turned_by;            /* as the operator's; then its displacements */
     OstSimd base[NUMBERS];
@@ -49,6 +50,7 @@ static inline void clear_cells(const OstOperator *operator, int exactly, double 
     cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
     cells->state = exactly;
     cells->evaluated = NULL;
+    cells->curved = NULL;
     ost_elasticity_clear(&cells->batch.elasticity);
     cells->batch.elasticity.stretch_suffices = cells->nodes == 4 && !exactly && !operator->turned_by;
     cells->batch.elasticity.eigen_share = eigen_share;

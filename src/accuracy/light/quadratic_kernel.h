@@ -99,7 +99,7 @@ static inline void integrate_points(const Straight *tet, const AboutLine *line, 
         find_stretch_stress(tensor, line->shear, here, stress);
         add_moments(&mix, &weight, stress, of_stress);
     }
-    hand_out_sums(of_stress, moment);
+    hand_out_sums(6, of_stress[0], moment[0]);
 }
 
 /* Forces of what nodes and functions have moved. */

@@ -163,23 +163,24 @@ static inline void add_up(Number coefficient[PRODUCTS][6], Number sum[SUMS][6])
     }
 }
 
-/* The transposed: each product has its part in the sums. */
-static inline void hand_out_sums(Number sum[SUMS][6], Number moment[PRODUCTS][6])
+/* The transposed, of `width` moments of each: every product has its part in the sums. */
+static inline void hand_out_sums(int width, const Number *sum, Number *moment)
 {
-    for (int p = 0; p < 6; p++) {
+    for (int p = 0; p < width; p++) {
         Number of_vertex[VERTICES];
         for (int v = 0; v < VERTICES; v++)
-            of_vertex[v] = sum[ALL][p] + sum[SQUARE + v][p];
+            of_vertex[v] = sum[width * ALL + p] + sum[width * (SQUARE + v) + p];
 #pragma GCC unroll 6
         for (int e = 0; e < EDGES; e++) {
             const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
-            const Number within = sum[WITHIN + e][p];
+            const Number within = sum[width * (WITHIN + e) + p];
             of_vertex[a] += within;
             of_vertex[b] += within;
-            moment[VERTICES + e][p] = sum[ALL][p] + within + sum[WITH + a][p] + sum[WITH + b][p];
+            moment[width * (VERTICES + e) + p] =
+                sum[width * ALL + p] + within + sum[width * (WITH + a) + p] + sum[width * (WITH + b) + p];
         }
         for (int v = 0; v < VERTICES; v++)
-            moment[v][p] = of_vertex[v];
+            moment[width * v + p] = of_vertex[v];
     }
 }
 
