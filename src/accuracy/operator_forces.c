@@ -367,7 +367,10 @@ typedef struct Product {
 static void add_product(const Cells *cells, const OstElement *element, double factor, const Product *product)
 {
     OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
-    ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
+    if (product->u)
+        ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
+    else
+        memset(moved, 0, sizeof moved);
     gather_functions(cells, product->w, more);
     find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
     for (int n = 0; n < 3 * cells->nodes; n++)

@@ -68,6 +68,7 @@ void ost_steps_start(OstSteps *steps)
     steps->products[1] = 0.0;
     steps->weight = steps->gain = 0.0;
     steps->turns = 0;
+    steps->at_rest = 1;
 }
 
 OstStatus ost_steps_take_rows(const OstSteps *steps, double *rows)
@@ -88,10 +89,12 @@ static OstStatus multiply(OstSteps *steps)
 {
     const OstOperator *stiffness = steps->stiffness;
     const OstProblem *problem = stiffness->problem;
-    OST_TRY(ost_system_displacement(problem->system, 0.0, steps->p.rows, steps->u));
+    if (!steps->at_rest)
+        OST_TRY(ost_system_displacement(problem->system, 0.0, steps->p.rows, steps->u));
     OST_TRY(ost_complement_import(stiffness->complement, steps->p.functions));
-    ost_operator_apply(stiffness, steps->u, steps->p.functions, steps->force, steps->q.functions);
-    if (problem->supports->spring)
+    ost_operator_apply(stiffness, steps->at_rest ? NULL : steps->u, steps->p.functions, steps->force,
+                       steps->q.functions);
+    if (problem->supports->spring && !steps->at_rest)
         ost_spring_force(problem->supports, -1.0 / stiffness->unit, steps->u, steps->force);
     ost_complement_add_bed(stiffness->complement, steps->p.functions, steps->q.functions);
     ost_complement_project(stiffness->complement, steps->q.functions);
@@ -119,6 +122,7 @@ static OstStatus multiply_rows(OstSteps *steps)
 static OstStatus take_cycle(OstSteps *steps, OstCyclePart part, int *found)
 {
     OST_TRY(ost_solver_precondition(steps->solver, part, steps->r.rows, steps->z, found));
+    steps->at_rest = 0;
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;

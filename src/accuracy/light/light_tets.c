@@ -303,7 +303,9 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
 
 static void pad(const OstLightTets *tets, const double *u, double *padded)
 {
-    for (size_t n = 0; n < (size_t)tets->mesh->node_count; n++)
+    if (!u)
+        memset(padded, 0, 4 * (size_t)tets->mesh->node_count * sizeof *padded);
+    for (size_t n = 0; u && n < (size_t)tets->mesh->node_count; n++)
         for (size_t i = 0; i < 3; i++)
             padded[4 * n + i] = u[3 * n + i];
 }
@@ -393,7 +395,7 @@ static void find_pair(OstLightTets *tets, void *const *product)
     const int is_quadratic = tets->mesh->nodes_per_tet == 10;
     const size_t numbers = 4 * (size_t)tets->mesh->node_count;
     double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
-    Pair pair;
+    Pair pair = {.at_rest = 1};
     for (int k = 0; k < PAIR; k++) {
         const Product *one = product[k];
         open_product(tets, one, u[k], force[k]);
@@ -402,6 +404,7 @@ static void find_pair(OstLightTets *tets, void *const *product)
         pair.force[k] = force[k];
         pair.of_functions[k] = one->of_functions;
         pair.energy[k] = one->energy;
+        pair.at_rest &= !one->u;
     }
     if (pair.energy[0])
         (is_quadratic ? ost_quadratic_pairs_energy : ost_linear_pairs_energy)(tets, &pair);
