@@ -26,22 +26,23 @@ OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstS
     const size_t numbers = OST_PER_FUNCTION * steps->functions;
     const OstLocal columns = problem->system->matrix->columns, nodes = problem->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &steps->p.rows, 4 * steps->rows);
-    OST_THEN(OST_NEW(ctx, &steps->p.functions, 4 * numbers));
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &steps->p.functions, 2 * numbers)); /* those of p and q are written at once */
+    OST_THEN(OST_NEW(ctx, &steps->r.functions, 2 * numbers));
     OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
     OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)(columns > nodes ? columns : nodes))); /* rigid faces add rows */
     OST_THEN(OST_NEW(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
-    for (size_t k = 1; k < 4; k++) {
+    for (size_t k = 1; k < 4; k++)
         vectors[k]->rows = steps->p.rows + k * steps->rows;
-        vectors[k]->functions = steps->p.functions + k * numbers;
-    }
+    steps->q.functions = steps->p.functions + numbers;
+    steps->e.functions = steps->r.functions + numbers;
     return OST_SUCCESS;
 }
 
 void ost_steps_close(OstSteps *steps)
 {
     OST_FREE(steps->p.rows);
-    OST_FREE(steps->p.functions);
+    OST_FREE(steps->p.functions, steps->r.functions);
     OST_FREE(steps->z);
     OST_FREE(steps->u);
     OST_FREE(steps->force);

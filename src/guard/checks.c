@@ -484,8 +484,8 @@ static OstStatus find_forces(const OstProblem *problem, OstResult *result, NodeF
     const int is_summed = result->internal != NULL;
     *of_nodes = (NodeForces){.internal = result->internal};
     result->internal = NULL;
-    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &of_nodes->internal, count);
-    OST_THEN(OST_NEW(ctx, &of_nodes->magnitude, count));
+    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW_UNCLEARED(ctx, &of_nodes->internal, count);
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &of_nodes->magnitude, count));
     OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, result->t, result->displacement,
                                    is_summed ? NULL : of_nodes->internal, of_nodes->magnitude));
     if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {

@@ -54,7 +54,7 @@ static OstStatus make_room(OstResult *result, int is_asked, size_t numbers, doub
     if (!is_asked || *values)
         return OST_SUCCESS;
     *is_new = 1;
-    return OST_NEW(result->ctx, values, numbers * (size_t)result->mesh->owned_tets);
+    return OST_NEW_UNCLEARED(result->ctx, values, numbers * (size_t)result->mesh->owned_tets);
 }
 
 OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansVisit *visit)

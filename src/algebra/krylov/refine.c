@@ -226,7 +226,7 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
         memset(u, 0, work.n * sizeof *u);
         return OST_SUCCESS;
     }
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
+    OST_TRY(ost_agree(ctx, OST_NEW_UNCLEARED(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
     work.correction = work.residual + work.n;
     work.candidate_residual = work.correction + work.n;
     work.candidate = work.candidate_residual + work.n;
