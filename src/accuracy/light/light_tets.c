@@ -362,9 +362,8 @@ typedef struct Product {
     double *energy;
 } Product;
 
-static void open_product(const OstLightTets *tets, const Product *product, double *u, double *force)
+static void open_product(const OstLightTets *tets, const Product *product, double *force)
 {
-    pad(tets, product->u, u);
     if (product->energy)
         return;
     memset(force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *force);
@@ -382,7 +381,8 @@ static void close_product(const OstLightTets *tets, const double *force, const P
 static void find_one(OstLightTets *tets, const Product *product)
 {
     const int is_quadratic = tets->mesh->nodes_per_tet == 10;
-    open_product(tets, product, tets->u, tets->force);
+    pad(tets, product->u, tets->u);
+    open_product(tets, product, tets->force);
     if (product->energy)
         (is_quadratic ? ost_quadratic_eights_energy : find_energies)(tets, product->w, product->energy);
     else
@@ -396,15 +396,18 @@ static void find_pair(OstLightTets *tets, void *const *product)
     const size_t numbers = 4 * (size_t)tets->mesh->node_count;
     double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
     Pair pair = {.at_rest = 1};
+    for (int k = 0; k < PAIR; k++)
+        pair.at_rest &= !((const Product *)product[k])->u;
     for (int k = 0; k < PAIR; k++) {
         const Product *one = product[k];
-        open_product(tets, one, u[k], force[k]);
+        if (!pair.at_rest)
+            pad(tets, one->u, u[k]);
+        open_product(tets, one, force[k]);
         pair.u[k] = u[k];
         pair.w[k] = one->w;
         pair.force[k] = force[k];
         pair.of_functions[k] = one->of_functions;
         pair.energy[k] = one->energy;
-        pair.at_rest &= !one->u;
     }
     if (pair.energy[0])
         (is_quadratic ? ost_quadratic_pairs_energy : ost_linear_pairs_energy)(tets, &pair);
