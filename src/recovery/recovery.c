@@ -333,23 +333,39 @@ static void add_volumes(const OstMesh *mesh, int nodes, const OstBatch *batch, c
     }
 }
 
-/* Nodes elsewhere have no place in the sum. */
+static void add(const OstSimdFour *first, const OstSimdTwo *last, double share, double *at_node)
+{
+    if (!(share > 0.0)) /* a node elsewhere has no place in the sum */
+        return;
+    *(OstSimdFour *)at_node += share * *first;
+    *(OstSimdTwo *)(at_node + 4) += share * *last;
+}
+
 static void add_batch(int nodes, int uniform, const OstBatch *batch,
                       const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES], const OstSimd *stress, double *sum)
 {
-    OstSimdFour first[OST_SIMD_WIDTH], last[OST_SIMD_WIDTH]; /* four numbers and two */
+    OstSimdFour first[OST_SIMD_WIDTH], rest[OST_SIMD_WIDTH]; /* four numbers and two */
     for (int a = 0; a < nodes; a++) {
         if (a == 0 || !uniform) {
             ost_simd_rows(4, stress + 6 * a, first);
-            ost_simd_rows(2, stress + 6 * a + 4, last);
+            ost_simd_rows(2, stress + 6 * a + 4, rest);
         }
         for (int slot = 0; slot < batch->count; slot++) {
-            double *at_node = sum + 6 * (size_t)batch->node[slot][a];
-            if (!(share[slot][a] > 0.0))
-                continue;
-            *(OstSimdFour *)at_node += share[slot][a] * first[slot];
-            *(OstSimdTwo *)(at_node + 4) += share[slot][a] * __builtin_shufflevector(last[slot], last[slot], 0, 1);
+            const OstSimdTwo last = __builtin_shufflevector(rest[slot], rest[slot], 0, 1);
+            add(&first[slot], &last, share[slot][a], sum + 6 * (size_t)batch->node[slot][a]);
         }
+    }
+}
+
+/* Of tets whose uniform stress is known. */
+static void add_known(int nodes, const OstBatch *batch, const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES],
+                      const double *stress, double *sum)
+{
+    for (int slot = 0; slot < batch->count; slot++) {
+        const double *of_tet = stress + 6 * (size_t)batch->tet[slot];
+        for (int a = 0; a < nodes; a++)
+            add((const OstSimdFour *)of_tet, (const OstSimdTwo *)(of_tet + 4), share[slot][a],
+                sum + 6 * (size_t)batch->node[slot][a]);
     }
 }
 
@@ -374,9 +390,14 @@ static void average(int count, void *const *request, const Around *around)
         add_volumes(mesh, element->nodes, &batch, around, share);
         for (int k = 0; k < count; k++) {
             const Request *one = request[k];
+            const int uniform = is_uniform(one->result, element);
             OstSimd stress[6 * OST_MAX_TET_NODES];
+            if (uniform && one->result->stress && first + batch.count <= mesh->owned_tets) {
+                add_known(element->nodes, &batch, share, one->result->stress, one->stress);
+                continue;
+            }
             stress_of_batch(one->result, element, &batch, &at_nodes, &kept, stress);
-            add_batch(element->nodes, is_uniform(one->result, element), &batch, share, stress, one->stress);
+            add_batch(element->nodes, uniform, &batch, share, stress, one->stress);
         }
     }
     for (int k = 0; k < count; k++)

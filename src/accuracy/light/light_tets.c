@@ -301,13 +301,18 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
 
 /* --- all tets --- */
 
+/* Four numbers at a time, of which the last is the next node's, or is written again. */
+typedef double AnyWide __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 static void pad(const OstLightTets *tets, const double *u, double *padded)
 {
+    const size_t nodes = (size_t)tets->mesh->node_count;
     if (!u)
-        memset(padded, 0, 4 * (size_t)tets->mesh->node_count * sizeof *padded);
-    for (size_t n = 0; u && n < (size_t)tets->mesh->node_count; n++)
-        for (size_t i = 0; i < 3; i++)
-            padded[4 * n + i] = u[3 * n + i];
+        memset(padded, 0, 4 * nodes * sizeof *padded);
+    for (size_t n = 0; u && n + 1 < nodes; n++)
+        *(AnyWide *)(padded + 4 * n) = *(const AnyWide *)(u + 3 * n);
+    if (u && nodes > 0)
+        memcpy(padded + 4 * (nodes - 1), u + 3 * (nodes - 1), 3 * sizeof *u);
 }
 
 static inline void find_eight(const OstLightTets *tets, size_t k, const float *functions, int by_stretch,
@@ -373,9 +378,11 @@ static void open_product(const OstLightTets *tets, const Product *product, doubl
 
 static void close_product(const OstLightTets *tets, const double *force, const Product *product)
 {
-    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes && !product->energy; n++)
-        for (size_t i = 0; i < 3; i++)
-            product->force[3 * n + i] = force[4 * n + i];
+    const size_t nodes = product->energy ? 0 : (size_t)tets->mesh->owned_nodes;
+    for (size_t n = 0; n + 1 < nodes; n++)
+        *(AnyWide *)(product->force + 3 * n) = *(const AnyWide *)(force + 4 * n);
+    if (nodes > 0)
+        memcpy(product->force + 3 * (nodes - 1), force + 4 * (nodes - 1), 3 * sizeof *force);
 }
 
 static void find_one(OstLightTets *tets, const Product *product)
