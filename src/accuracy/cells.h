@@ -33,6 +33,7 @@ typedef struct Cells {
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
     OstSimd turn[OST_MAX_FUNCTIONS];
     const OstEvaluated *evaluated;      /* at the rule's points; NULL: not kept */
+    const OstCurvedPoint *curved;       /* the same of curved tets that are nothing else */
     OstSimd stretch[OST_MAX_POINTS][6]; /* where axes are known by their line alone: elasticity.stretch_at */
     const double *turned_by;            /* as the operator's; then its displacements */
     OstSimd base[NUMBERS];
@@ -49,6 +50,7 @@ static inline void clear_cells(const OstOperator *operator, int exactly, double 
     cells->points = cells->nodes == 4 && !exactly ? 0 : cells->rule->count;
     cells->state = exactly;
     cells->evaluated = NULL;
+    cells->curved = NULL;
     ost_elasticity_clear(&cells->batch.elasticity);
     cells->batch.elasticity.stretch_suffices = cells->nodes == 4 && !exactly && !operator->turned_by;
     cells->batch.elasticity.eigen_share = eigen_share;
@@ -110,32 +112,21 @@ static inline void gather_functions(const Cells *cells, const float *values, Ost
         }
 }
 
-static inline void add_to_nodes(const OstBatch *batch, int nodes, OstLocal owned, const OstSimd *at_nodes,
-                                double *force)
-{
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[slot][a];
-            for (int i = 0; i < 3 && node < owned; i++)
-                force[3 * (size_t)node + (size_t)i] += at_nodes[3 * a + i][slot];
-        }
-}
-
 /* Takes forces of a state off those on the functions: 3 numbers each. */
 static inline void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
                                   double *of_state)
 {
+    double *of_function[OST_SIMD_WIDTH], nowhere[3] = {0.0};
     for (int k = 0; k < cells->functions; k++) {
         OstSimd turned[3];
         for (int i = 0; i < 3; i++)
-            turned[i] = cells->turn[k] * at_functions[3 * k + i];
-        for (int slot = 0; slot < cells->batch.count; slot++) {
+            turned[i] = -cells->turn[k] * at_functions[3 * k + i];
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
             const OstLocal function = cells->function[slot][k];
-            if (!ost_complement_owns(operator->complement, function))
-                continue;
-            for (int i = 0; i < 3; i++)
-                of_state[3 * (size_t)function + (size_t)i] -= turned[i][slot];
+            const int counts = slot < cells->batch.count && ost_complement_owns(operator->complement, function);
+            of_function[slot] = counts ? of_state + 3 * (size_t)function : nowhere;
         }
+        ost_simd_scatter3(turned, of_function);
     }
 }
 

@@ -35,7 +35,8 @@ void ost_operator_small_force(const OstOperator *operator, double eigen_share, c
                               double *of_functions);
 
 /* Local. The stiffness of small displacements times one: that of linear theory, turned at each point with the body, and
- * of straight tets where they are curved. (What the stress adds to it is left out: so it is definite.) */
+ * of straight tets where they are curved. (What the stress adds to it is left out: so it is definite.)
+ * u: NULL, where the nodes are at rest. */
 void ost_operator_apply(const OstOperator *operator, const double * u, const float *w, double *force,
                         float *of_functions);
 

@@ -229,8 +229,8 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     const OstMesh *mesh = sum->operator->problem->mesh;
     OstSimd moved[NUMBERS], at_nodes[NUMBERS], at_functions[MORE], work;
     ost_batch_gather_vectors(&cells->batch, cells->nodes, sum->u, moved);
-    if (!sum->force && is_curved(cells, sum->formulation)) {
-        ost_curved_forces(cells->batch.x, &cells->batch.elasticity, cells->rule, moved, at_functions, &work);
+    if (cells->curved) {
+        ost_curved_forces(cells->batch.x, cells->curved, &cells->batch.elasticity, moved, at_functions, &work);
     } else {
         find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
         find_work(cells, moved, at_nodes, &work);
@@ -238,15 +238,23 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
     take_off_state(sum->operator, cells, at_functions, sum->of_functions);
     sum->work += own_work(cells, mesh->owned_tets, &work);
     if (sum->force)
-        add_to_nodes(&cells->batch, cells->nodes, mesh->owned_nodes, at_nodes, sum->force);
+        ost_batch_scatter_vectors(&cells->batch, cells->nodes, at_nodes, 1.0, mesh->owned_nodes, sum->force);
 }
 
-/* Keeps the points of tets without a quicker way, which all displacements of a visit share. */
-static void keep_points(const OstElement *element, int keeps, OstEvaluated at[OST_MAX_POINTS], Cells *cells)
+/* What all displacements of a visit share at the points of tets that are not straight. */
+typedef struct Points {
+    OstEvaluated at[OST_MAX_POINTS];
+    OstCurvedPoint curved[OST_MAX_POINTS];
+} Points;
+
+static void keep_points(const OstElement *element, int is_curved_alone, Points *points, Cells *cells)
 {
-    cells->evaluated = keeps ? at : NULL;
-    for (int q = 0; q < cells->rule->count && keeps; q++)
-        evaluate(cells, element, q, &at[q].point, at[q].gradient);
+    cells->curved = is_curved_alone ? points->curved : NULL;
+    cells->evaluated = cells->straight || is_curved_alone ? NULL : points->at;
+    if (cells->curved)
+        ost_curved_points(cells->batch.x, points->curved);
+    for (int q = 0; q < cells->rule->count && cells->evaluated; q++)
+        evaluate(cells, element, q, &points->at[q].point, points->at[q].gradient);
 }
 
 /* OstServe: of one complement and eigenstrain. */
@@ -255,7 +263,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
     const Sum *one = sum[0];
     const OstMesh *mesh = one->operator->problem->mesh;
     const OstElement *element = ost_element_of(mesh->nodes_per_tet);
-    OstEvaluated at[OST_MAX_POINTS];
+    Points points;
     Cells cells;
     (void)complement;
     clear_cells(one->operator, 1, one->eigen_share, &cells);
@@ -263,7 +271,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
                                            !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
-        keep_points(element, !cells.straight && !(!one->force && is_curved(&cells, one->formulation)), at, &cells);
+        keep_points(element, !one->force && is_curved(&cells, one->formulation), &points, &cells);
         for (int k = 0; k < count; k++)
             add_state(&cells, element, sum[k]);
     }
@@ -359,7 +367,10 @@ typedef struct Product {
 static void add_product(const Cells *cells, const OstElement *element, double factor, const Product *product)
 {
     OstSimd moved[NUMBERS], more[MORE], at_nodes[NUMBERS], at_functions[MORE];
-    ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
+    if (product->u)
+        ost_batch_gather_vectors(&cells->batch, cells->nodes, product->u, moved);
+    else
+        memset(moved, 0, sizeof moved);
     gather_functions(cells, product->w, more);
     find_forces(cells, element, OST_FORMULATION_LINEAR, moved, more, at_nodes, at_functions);
     for (int n = 0; n < 3 * cells->nodes; n++)
@@ -367,7 +378,8 @@ static void add_product(const Cells *cells, const OstElement *element, double fa
     for (int n = 0; n < 3 * cells->functions; n++)
         at_functions[n] *= factor;
     add_to_functions(cells, at_functions, product->of_functions);
-    add_to_nodes(&cells->batch, cells->nodes, product->operator->problem->mesh->owned_nodes, at_nodes, product->force);
+    ost_batch_scatter_vectors(&cells->batch, cells->nodes, at_nodes, 1.0, product->operator->problem->mesh->owned_nodes,
+                              product->force);
 }
 
 /* OstServe: of one complement. */

@@ -26,22 +26,23 @@ OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstS
     const size_t numbers = OST_PER_FUNCTION * steps->functions;
     const OstLocal columns = problem->system->matrix->columns, nodes = problem->mesh->node_count;
     OstStatus status = OST_NEW(ctx, &steps->p.rows, 4 * steps->rows);
-    OST_THEN(OST_NEW(ctx, &steps->p.functions, 4 * numbers));
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &steps->p.functions, 2 * numbers)); /* those of p and q are written at once */
+    OST_THEN(OST_NEW(ctx, &steps->r.functions, 2 * numbers));
     OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
     OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)(columns > nodes ? columns : nodes))); /* rigid faces add rows */
     OST_THEN(OST_NEW(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
-    for (size_t k = 1; k < 4; k++) {
+    for (size_t k = 1; k < 4; k++)
         vectors[k]->rows = steps->p.rows + k * steps->rows;
-        vectors[k]->functions = steps->p.functions + k * numbers;
-    }
+    steps->q.functions = steps->p.functions + numbers;
+    steps->e.functions = steps->r.functions + numbers;
     return OST_SUCCESS;
 }
 
 void ost_steps_close(OstSteps *steps)
 {
     OST_FREE(steps->p.rows);
-    OST_FREE(steps->p.functions);
+    OST_FREE(steps->p.functions, steps->r.functions);
     OST_FREE(steps->z);
     OST_FREE(steps->u);
     OST_FREE(steps->force);
@@ -68,6 +69,7 @@ void ost_steps_start(OstSteps *steps)
     steps->products[1] = 0.0;
     steps->weight = steps->gain = 0.0;
     steps->turns = 0;
+    steps->at_rest = 1;
 }
 
 OstStatus ost_steps_take_rows(const OstSteps *steps, double *rows)
@@ -88,10 +90,12 @@ static OstStatus multiply(OstSteps *steps)
 {
     const OstOperator *stiffness = steps->stiffness;
     const OstProblem *problem = stiffness->problem;
-    OST_TRY(ost_system_displacement(problem->system, 0.0, steps->p.rows, steps->u));
+    if (!steps->at_rest)
+        OST_TRY(ost_system_displacement(problem->system, 0.0, steps->p.rows, steps->u));
     OST_TRY(ost_complement_import(stiffness->complement, steps->p.functions));
-    ost_operator_apply(stiffness, steps->u, steps->p.functions, steps->force, steps->q.functions);
-    if (problem->supports->spring)
+    ost_operator_apply(stiffness, steps->at_rest ? NULL : steps->u, steps->p.functions, steps->force,
+                       steps->q.functions);
+    if (problem->supports->spring && !steps->at_rest)
         ost_spring_force(problem->supports, -1.0 / stiffness->unit, steps->u, steps->force);
     ost_complement_add_bed(stiffness->complement, steps->p.functions, steps->q.functions);
     ost_complement_project(stiffness->complement, steps->q.functions);
@@ -119,6 +123,7 @@ static OstStatus multiply_rows(OstSteps *steps)
 static OstStatus take_cycle(OstSteps *steps, OstCyclePart part, int *found)
 {
     OST_TRY(ost_solver_precondition(steps->solver, part, steps->r.rows, steps->z, found));
+    steps->at_rest = 0;
     for (size_t i = 0; i < steps->rows; i++)
         steps->z[i] *= steps->stiffness->unit;
     return OST_SUCCESS;

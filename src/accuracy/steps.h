@@ -21,6 +21,7 @@ typedef struct OstSteps {
     double products[2];     /* of the functions: r'B r, q'B r */
     double weight, gain;    /* r'B r before the last step, and what the step added to |e|² */
     int turns;              /* directions found so far */
+    int at_rest;            /* are p's rows 0, as there was no cycle yet? */
     int failed;             /* is the preconditioner, or the stiffness, not positive definite? */
 } OstSteps;
 

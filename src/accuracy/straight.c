@@ -59,20 +59,22 @@ static inline void find_stress(const OstSimd *x, const OstElasticity *elasticity
     ost_stretch_stress(elasticity->stretch_at ? elasticity->stretch_at[q] : tensor, elasticity->shear, strain, stress);
 }
 
-/* moment = integrals of the stress times each product by quadrature, of a C that varies. */
+/* moment = integrals of the stress times each product by quadrature, which is ost_tet_degree5, of a C that varies. */
 static inline void integrate_points(const OstSimd *x, const Straight *tet, const OstElasticity *elasticity,
                                     const OstQuadrature *rule, OstSimd strain[PRODUCTS][6], OstSimd moment[PRODUCTS][6])
 {
-    memset(moment, 0, PRODUCTS * sizeof *moment);
+    OstSimd sum[SUMS][6], of_stress[SUMS][6];
+    add_up(strain, sum);
+    memset(of_stress, 0, sizeof of_stress);
     for (int q = 0; q < rule->count; q++) {
         const OstSimd weight = rule->point[q].weight * tet->volume;
+        const Mix mix = find_mix(q);
         OstSimd here[6], stress[6];
-        double product[PRODUCTS];
-        find_products(rule->point[q].at, product);
-        find_strain_at(product, strain, here);
+        find_strain_at(&mix, sum, here);
         find_stress(x, elasticity, rule, q, here, stress);
-        add_moments(product, &weight, stress, moment);
+        add_moments(&mix, &weight, stress, of_stress);
     }
+    hand_out_sums(6, of_stress[0], moment[0]);
 }
 
 /* Of a uniform C. */
@@ -161,16 +163,19 @@ static inline void find_point_strain(const OstSimd inverse[9], const OstSimd gro
 }
 
 /* How functions grow with coordinates are products of two of these: of the stress, times J^-1, their moments are all
- * that forces need. */
-static inline void add_stress_moments(const double product[PRODUCTS], const OstSimd inverse[9], const OstSimd stress[6],
-                                      OstSimd moment[PRODUCTS][9])
+ * that forces need. Adds what a point has of them. */
+static inline void add_stress_moments(const Mix *mix, const OstSimd inverse[9], const OstSimd stress[6],
+                                      OstSimd sum[SUMS][9])
 {
+    OstSimd *one = sum[mix->sum[0]], *other = sum[mix->sum[1]];
     for (int m = 0; m < 3; m++) {
         OstSimd along[3];
         ost_force_of_stress(inverse + 3 * m, stress, along);
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < PRODUCTS; k++)
-                moment[k][3 * m + i] += product[k] * along[i];
+        for (int i = 0; i < 3; i++) {
+            sum[ALL][3 * m + i] += mix->factor[0] * along[i];
+            one[3 * m + i] += mix->factor[1] * along[i];
+            other[3 * m + i] += mix->factor[2] * along[i];
+        }
     }
 }
 
@@ -197,30 +202,39 @@ static inline void find_functions_forces(OstSimd moment[PRODUCTS][9], OstSimd *a
             add_moment(27.0, moment[4 + face_edge[f][i]], ost_tet_face[f][i], at_functions + 3 * (EDGES + f));
 }
 
-OST_KERNEL void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule,
+OST_KERNEL void ost_curved_points(const OstSimd *x, OstCurvedPoint at[OST_MAX_POINTS])
+{
+    OstSimd of_x[VERTICES][9];
+    find_growth(x, of_x);
+    for (int q = 0; q < ost_tet_degree5.count; q++) {
+        const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
+        OstSimd j[9];
+        find_growth_at(of_x, point->at, j);
+        invert(j, at[q].inverse, &at[q].volume);
+        at[q].volume *= point->weight / 6.0;
+    }
+}
+
+OST_KERNEL void ost_curved_forces(const OstSimd *x, const OstCurvedPoint *at, const OstElasticity *elasticity,
                                   const OstSimd *u, OstSimd *at_functions, OstSimd *work)
 {
-    OstSimd of_x[VERTICES][9], of_u[VERTICES][9], moment[PRODUCTS][9];
-    find_growth(x, of_x);
+    OstSimd of_u[VERTICES][9], sum[SUMS][9], moment[PRODUCTS][9];
     find_growth(u, of_u);
-    memset(moment, 0, sizeof moment);
+    memset(sum, 0, sizeof sum);
     *work = (OstSimd){0};
-    for (int q = 0; q < rule->count; q++) {
-        const OstQuadraturePoint *point = &rule->point[q];
-        OstSimd j[9], growth[9], inverse[9], volume, strain[6], stress[6];
-        double product[PRODUCTS];
-        find_growth_at(of_x, point->at, j);
-        find_growth_at(of_u, point->at, growth);
-        invert(j, inverse, &volume);
-        find_point_strain(inverse, growth, strain);
-        find_stress(x, elasticity, rule, q, strain, stress);
+    for (int q = 0; q < ost_tet_degree5.count; q++) {
+        const Mix mix = find_mix(q);
+        OstSimd growth[9], strain[6], stress[6];
+        find_growth_at(of_u, ost_tet_degree5.point[q].at, growth);
+        find_point_strain(at[q].inverse, growth, strain);
+        find_stress(x, elasticity, &ost_tet_degree5, q, strain, stress);
         for (int p = 0; p < 6; p++) {
-            stress[p] *= (point->weight / 6.0) * volume;
+            stress[p] *= at[q].volume;
             *work += stress[p] * strain[p];
         }
-        find_products(point->at, product);
-        add_stress_moments(product, inverse, stress, moment);
+        add_stress_moments(&mix, at[q].inverse, stress, sum);
     }
+    hand_out_sums(9, sum[0], moment[0]);
     find_functions_forces(moment, at_functions);
 }
 

@@ -12,13 +12,21 @@
 int ost_straight_all(const OstSimd *x);
 
 /* Local. Forces of a displacement u of the nodes, and w of the functions, which are taken in the edges' own order; w
- * may be NULL. `rule` has the points of C if it varies. */
+ * may be NULL. `rule` has the points of C if it varies: those of ost_tet_degree5. */
 void ost_straight_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
                          const OstSimd *w, OstSimd *at_nodes, OstSimd *at_functions);
 
+/* How the place in curved tets depends on three coordinates, at a point of ost_tet_degree5. */
+typedef struct OstCurvedPoint {
+    OstSimd inverse[9], volume; /* of the derivatives; that is the point's */
+} OstCurvedPoint;
+
+/* Local. Those of a batch, which all its displacements share. */
+void ost_curved_points(const OstSimd *x, OstCurvedPoint at[OST_MAX_POINTS]);
+
 /* Local. Forces of a displacement u of the nodes on the functions, and the work of all its forces on it, in the true
- * shape of curved tets. */
-void ost_curved_forces(const OstSimd *x, const OstElasticity *elasticity, const OstQuadrature *rule, const OstSimd *u,
+ * shape of curved tets. If C varies, it is given at the points of ost_tet_degree5. */
+void ost_curved_forces(const OstSimd *x, const OstCurvedPoint *at, const OstElasticity *elasticity, const OstSimd *u,
                        OstSimd *at_functions, OstSimd *work);
 
 /* Local. The stretch tensor of linear or quadratic tets, which may be curved, at the points of a rule, where only the

@@ -572,7 +572,7 @@ OstStatus ost_solver_precondition(OstSolver *solver, OstCyclePart part, const do
     *found = ost_solver_has_preconditioner(solver);
     if (!*found)
         return OST_SUCCESS;
-    OST_TRY(ost_agree(solver->ctx, OST_NEW(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
+    OST_TRY(ost_agree(solver->ctx, OST_NEW_UNCLEARED(solver->ctx, &scaled, 3 * (size_t)solver->matrix->rows)));
     ost_solver_system(solver, &system, &preconditioner);
     if (part == OST_CYCLE_BRIEF && preconditioner.brief)
         preconditioner.apply = preconditioner.brief;

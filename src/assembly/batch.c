@@ -14,6 +14,20 @@ void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *ve
     }
 }
 
+void ost_batch_scatter_vectors(const OstBatch *batch, int nodes, const OstSimd *vectors, double scale, OstLocal owned,
+                               double *sum)
+{
+    double *of_node[OST_SIMD_WIDTH], nowhere[3] = {0.0};
+    for (int a = 0; a < nodes; a++) {
+        const OstSimd scaled[3] = {scale * vectors[3 * a], scale * vectors[3 * a + 1], scale * vectors[3 * a + 2]};
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            const OstLocal node = batch->node[slot][a];
+            of_node[slot] = slot < batch->count && node < owned ? sum + 3 * (size_t)node : nowhere;
+        }
+        ost_simd_scatter3(scaled, of_node);
+    }
+}
+
 /* Quadratic tets sum coordinates times derivatives of shape functions. Far from the origin that would round as much as
  * the distance from there is larger than the tet. (Linear tets take differences alone.) */
 static void refer_to_first_node(OstSimd *x, int nodes)

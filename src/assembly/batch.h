@@ -67,6 +67,11 @@ void ost_batch_keep_alike(OstBatch *batch, const OstElement *element, const OstM
 /* Local. Reads the vectors of the batch's nodes: vectors[3 n + i] is component i at local node n. */
 void ost_batch_gather_vectors(const OstBatch *batch, int nodes, const double *vectors, OstSimd *gathered);
 
+/* Local. Adds `scale` times vectors of the batch's nodes to `sum`, which has 3 numbers for each of the first `owned`
+ * local nodes; those at other nodes are left out. */
+void ost_batch_scatter_vectors(const OstBatch *batch, int nodes, const OstSimd *vectors, double scale, OstLocal owned,
+                               double *sum);
+
 /* Local. Evaluates the points of the batch's quadrature into `kept`, for displacements of linear theory that follow. */
 void ost_batch_keep_points(OstBatch *batch, const OstElement *element, OstKeptPoints *kept);
 

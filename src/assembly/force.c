@@ -10,20 +10,6 @@
 
 #include <string.h>
 
-/* Adds scale × forces of a batch to `force`, which has 3 numbers for each of the first `owned` local nodes. */
-static void scatter(const OstBatch *batch, int nodes, const OstSimd *of_tets, double scale, OstLocal owned,
-                    double *force)
-{
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[slot][a];
-            if (node >= owned)
-                continue;
-            for (int i = 0; i < 3; i++)
-                force[3 * (size_t)node + (size_t)i] += scale * of_tets[3 * a + i][slot];
-        }
-}
-
 OstStatus ost_internal_force(const OstMesh *mesh, const OstMaterialField *field, double t, const double *u,
                              double *force, double *magnitude)
 {
@@ -79,11 +65,11 @@ static void add_batch(const Request *request, const OstElement *element, const O
     else if (request->force)
         find_turned(request, element, batch, displacement, of_tets);
     if (request->force)
-        scatter(batch, element->nodes, of_tets, 1.0, owned, request->force);
+        ost_batch_scatter_vectors(batch, element->nodes, of_tets, 1.0, owned, request->force);
     if (!request->magnitude)
         return;
     element->magnitude(batch->x, &batch->elasticity, displacement, of_tets);
-    scatter(batch, element->nodes, of_tets, 1.0, owned, request->magnitude);
+    ost_batch_scatter_vectors(batch, element->nodes, of_tets, 1.0, owned, request->magnitude);
 }
 
 /* OstServe: of one field. */
@@ -204,7 +190,7 @@ static OstStatus force_of_prescribed(const OstSystem *system, const OstMaterialF
             ost_batch_gather(&batch, element, mesh, field, count, tets);
             ost_batch_gather_vectors(&batch, element->nodes, g, displacement);
             element->force(batch.x, &batch.elasticity, displacement, of_tets);
-            scatter(&batch, element->nodes, of_tets, -1.0, mesh->owned_nodes, force);
+            ost_batch_scatter_vectors(&batch, element->nodes, of_tets, -1.0, mesh->owned_nodes, force);
             count = 0;
         }
     }

@@ -48,13 +48,14 @@ static int overflows(size_t count, size_t size)
     return size != 0 && count > (SIZE_MAX / 2 - sizeof(Header) - LINE) / size;
 }
 
-OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory)
+static OstStatus allocate(OstContext *ctx, size_t count, size_t size, int cleared, void **memory)
 {
     *memory = NULL;
     if (overflows(count, size))
         return raise_out_of_memory(ctx, count, size);
     const int aligned = count * size >= LARGE;
-    char *start = calloc(1, sizeof(Header) + count * size + (aligned ? LINE : 0));
+    const size_t bytes = sizeof(Header) + count * size + (aligned ? LINE : 0);
+    char *start = cleared ? calloc(1, bytes) : malloc(bytes);
     if (!start)
         return raise_out_of_memory(ctx, count, size);
     const unsigned before = bytes_before(start, aligned);
@@ -66,6 +67,16 @@ OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory
     ost_ledger_book(ctx, header->account, header->bytes, 0);
     *memory = header + 1;
     return OST_SUCCESS;
+}
+
+OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory)
+{
+    return allocate(ctx, count, size, 1, memory);
+}
+
+OstStatus ost_allocate_uncleared(OstContext *ctx, size_t count, size_t size, void **memory)
+{
+    return allocate(ctx, count, size, 0, memory);
 }
 
 OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory)

@@ -8,6 +8,9 @@
  * Raises OST_OUT_OF_MEMORY with the size asked for. */
 OstStatus ost_allocate(OstContext *ctx, size_t count, size_t size, void **memory);
 
+/* Local. The same, with any content: for large arrays that are written as a whole before they are read. */
+OstStatus ost_allocate_uncleared(OstContext *ctx, size_t count, size_t size, void **memory);
+
 /* Local. Resizes an array from ost_allocate (or NULL) to `count` items; new items are zeroed. On failure the old array
  * is unchanged. */
 OstStatus ost_reallocate(OstContext *ctx, size_t count, size_t size, void **memory);
@@ -23,6 +26,8 @@ void ost_return_freed_memory(void);
 OstStatus ost_copy_string(OstContext *ctx, const char *text, char **copy);
 
 #define OST_NEW(ctx, pointer, count) ost_allocate((ctx), (size_t)(count), sizeof **(pointer), (void **)(pointer))
+#define OST_NEW_UNCLEARED(ctx, pointer, count) \
+    ost_allocate_uncleared((ctx), (size_t)(count), sizeof **(pointer), (void **)(pointer))
 #define OST_RESIZE(ctx, pointer, count) ost_reallocate((ctx), (size_t)(count), sizeof **(pointer), (void **)(pointer))
 #define OST_GROW(ctx, pointer, count) ost_grow((ctx), (size_t)(count), sizeof **(pointer), (void **)(pointer))
 

@@ -20,6 +20,9 @@ enum { OST_SIMD_FOUR = 4 };
 typedef double OstSimdFour
     __attribute__((vector_size(OST_SIMD_FOUR * sizeof(double)), aligned(sizeof(double)), may_alias));
 
+/* Two of them. */
+typedef double OstSimdTwo __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 /* What comparisons yield: all bits of a tet's number, or none. */
 typedef int64_t OstSimdMask __attribute__((vector_size(OST_SIMD_WIDTH * sizeof(int64_t))));
 
@@ -69,6 +72,33 @@ static inline void ost_simd_gather3(const double *const from[OST_SIMD_WIDTH], Os
 #else
         gathered[i] = number[i];
 #endif
+}
+
+/* Up to four numbers, tet by tet. */
+static inline void ost_simd_rows(int count, const OstSimd *numbers, OstSimdFour row[OST_SIMD_WIDTH])
+{
+    OstSimdFour number[OST_SIMD_WIDTH] = {{0}};
+    for (int i = 0; i < count; i++) {
+#ifdef __AVX512F__
+        number[i] = __builtin_shufflevector(numbers[i], numbers[i], 0, 1, 2, 3);
+        number[OST_SIMD_FOUR + i] = __builtin_shufflevector(numbers[i], numbers[i], 4, 5, 6, 7);
+#else
+        number[i] = numbers[i];
+#endif
+    }
+    for (int first = 0; first < OST_SIMD_WIDTH; first += OST_SIMD_FOUR)
+        ost_simd_transpose(number + first, row + first);
+}
+
+/* Adds three numbers of each tet, each in its own place. */
+static inline void ost_simd_scatter3(const OstSimd added[3], double *const to[OST_SIMD_WIDTH])
+{
+    OstSimdFour row[OST_SIMD_WIDTH];
+    ost_simd_rows(3, added, row);
+    for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+        *(OstSimdTwo *)to[slot] += __builtin_shufflevector(row[slot], row[slot], 0, 1);
+        to[slot][2] += row[slot][2];
+    }
 }
 
 #endif

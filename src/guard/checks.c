@@ -86,7 +86,7 @@ static void project_on_constrained(const OstSupports *supports, OstLocal node, c
                                    double constrained[3])
 {
     double projector[9], prescribed[3], free_part[3];
-    if (ost_supports_get(supports, node, projector, prescribed) == 0) {
+    if (supports->index[node] < 0 || ost_supports_get(supports, node, projector, prescribed) == 0) {
         memset(constrained, 0, 3 * sizeof *constrained);
         return;
     }
@@ -484,8 +484,8 @@ static OstStatus find_forces(const OstProblem *problem, OstResult *result, NodeF
     const int is_summed = result->internal != NULL;
     *of_nodes = (NodeForces){.internal = result->internal};
     result->internal = NULL;
-    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW(ctx, &of_nodes->internal, count);
-    OST_THEN(OST_NEW(ctx, &of_nodes->magnitude, count));
+    OstStatus status = is_summed ? OST_SUCCESS : OST_NEW_UNCLEARED(ctx, &of_nodes->internal, count);
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &of_nodes->magnitude, count));
     OST_THEN(ost_internal_force_of(problem->mesh, problem->field, problem->formulation, result->t, result->displacement,
                                    is_summed ? NULL : of_nodes->internal, of_nodes->magnitude));
     if (status == OST_SUCCESS && ost_field_is_eigenstrained(problem->field)) {

@@ -214,9 +214,9 @@ OstStatus ost_name_plain(OstContext *ctx, char **name);
 OstLocal ost_mesh_local(const OstMesh *mesh, OstGlobal number);
 
 /* Vertices of the face opposite each vertex, seen counter-clockwise from outside; and the ends of the edges, in the
- * order of the mid-edge nodes 4-9. */
-extern const int ost_tet_face[4][3];
-extern const int ost_tet_edge[6][2];
+ * order of the mid-edge nodes 4-9. (Here, so that the compiler may unroll loops over them.) */
+static const int ost_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+static const int ost_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
 /* The mid-edge node (4-9) between two different vertices. */
 int ost_tet_mid_node(int a, int b);

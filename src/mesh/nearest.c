@@ -53,7 +53,9 @@ OstStatus ost_mesh_nearest(const OstMesh *mesh, const double place[3], OstNeares
 {
     vertex->node = -1;
     vertex->distance = DBL_MAX;
-    for (OstLocal t = 0; t < mesh->tet_count; t++)
+    for (OstLocal node = 0; mesh->nodes_per_tet == 4 && node < mesh->owned_nodes; node++) /* all are vertices */
+        keep_nearer(mesh, place, node, vertex);
+    for (OstLocal t = 0; mesh->nodes_per_tet > 4 && t < mesh->tet_count; t++)
         for (int k = 0; k < 4; k++) {
             const OstLocal node = ost_mesh_nodes_of(mesh, t)[k];
             if (node < mesh->owned_nodes)

@@ -2,9 +2,6 @@
 #include "core/small.h"
 #include "mesh/mesh_data.h"
 
-const int ost_tet_face[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-const int ost_tet_edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-
 int ost_tet_mid_node(int a, int b)
 {
     int e = 0;

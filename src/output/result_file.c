@@ -103,7 +103,7 @@ static OstStatus make_room(const OstResult *result, const OstOutputField *about,
 {
     const size_t rows = (size_t)(about->centring == OST_ON_NODES ? result->mesh->node_count : result->mesh->owned_tets);
     const OstOutputArray row = {about->word, about->centring, about->type, about->components, NULL};
-    return ost_allocate(result->ctx, rows, ost_output_row_bytes(&row), values);
+    return ost_allocate_uncleared(result->ctx, rows, ost_output_row_bytes(&row), values);
 }
 
 /* What follows from others is work of the same effect. */

@@ -54,7 +54,7 @@ static OstStatus make_room(OstResult *result, int is_asked, size_t numbers, doub
     if (!is_asked || *values)
         return OST_SUCCESS;
     *is_new = 1;
-    return OST_NEW(result->ctx, values, numbers * (size_t)result->mesh->owned_tets);
+    return OST_NEW_UNCLEARED(result->ctx, values, numbers * (size_t)result->mesh->owned_tets);
 }
 
 OstStatus ost_result_prepare_means(OstResult *result, unsigned fields, OstMeansVisit *visit)
@@ -128,7 +128,13 @@ static void gather_at_nodes(const OstResult *result, const OstElement *element, 
                           ost_tet_nodes.point, places);
 }
 
-/* Stress at the nodes of a batch's tets, 6 numbers a node. */
+/* Do a tet's nodes have one stress? */
+static int is_uniform(const OstResult *result, const OstElement *element)
+{
+    return element->nodes == 4 && result->formulation == OST_FORMULATION_LINEAR;
+}
+
+/* Stress at the nodes of a batch's tets, 6 numbers a node; at the first alone where it is uniform. */
 static void stress_of_batch(const OstResult *result, const OstElement *element, const OstBatch *batch,
                             const OstElasticity *at_nodes, const OstKeptPoints *kept, OstSimd *stress)
 {
@@ -144,7 +150,7 @@ static void stress_of_batch(const OstResult *result, const OstElement *element, 
     element->nodal_strain(batch->x, kept, u, strain);
     if (at_nodes->by_mean)
         element->means(batch->x, &batch->elasticity, u, &means);
-    for (int a = 0; a < element->nodes; a++) {
+    for (int a = 0; a < (element->nodes == 4 ? 1 : element->nodes); a++) {
         const int at = ost_elasticity_at(at_nodes, a);
         OstSimd elastic[6];
         ost_elastic_strain(at_nodes, at, strain + 6 * a, elastic);
@@ -174,7 +180,7 @@ void ost_tet_nodal_stress(const OstResult *result, OstLocal tet, double *stress)
     gather_at_nodes(result, element, &batch, &at_nodes, &kept);
     stress_of_batch(result, element, &batch, &at_nodes, &kept, all);
     for (int n = 0; n < 6 * element->nodes; n++)
-        stress[n] = all[n][0];
+        stress[n] = all[is_uniform(result, element) ? n % 6 : n][0];
 }
 
 /* Stress at the points of a rule, 6 numbers each. */
@@ -327,13 +333,40 @@ static void add_volumes(const OstMesh *mesh, int nodes, const OstBatch *batch, c
     }
 }
 
-static void add_batch(int nodes, const OstBatch *batch, const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES],
-                      const OstSimd *stress, double *sum)
+static void add(const OstSimdFour *first, const OstSimdTwo *last, double share, double *at_node)
 {
-    for (int slot = 0; slot < batch->count; slot++)
+    if (!(share > 0.0)) /* a node elsewhere has no place in the sum */
+        return;
+    *(OstSimdFour *)at_node += share * *first;
+    *(OstSimdTwo *)(at_node + 4) += share * *last;
+}
+
+static void add_batch(int nodes, int uniform, const OstBatch *batch,
+                      const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES], const OstSimd *stress, double *sum)
+{
+    OstSimdFour first[OST_SIMD_WIDTH], rest[OST_SIMD_WIDTH]; /* four numbers and two */
+    for (int a = 0; a < nodes; a++) {
+        if (a == 0 || !uniform) {
+            ost_simd_rows(4, stress + 6 * a, first);
+            ost_simd_rows(2, stress + 6 * a + 4, rest);
+        }
+        for (int slot = 0; slot < batch->count; slot++) {
+            const OstSimdTwo last = __builtin_shufflevector(rest[slot], rest[slot], 0, 1);
+            add(&first[slot], &last, share[slot][a], sum + 6 * (size_t)batch->node[slot][a]);
+        }
+    }
+}
+
+/* Of tets whose uniform stress is known. */
+static void add_known(int nodes, const OstBatch *batch, const double share[OST_SIMD_WIDTH][OST_MAX_TET_NODES],
+                      const double *stress, double *sum)
+{
+    for (int slot = 0; slot < batch->count; slot++) {
+        const double *of_tet = stress + 6 * (size_t)batch->tet[slot];
         for (int a = 0; a < nodes; a++)
-            for (int p = 0; p < 6 && share[slot][a] > 0.0; p++) /* nodes elsewhere have no place in the sum */
-                sum[6 * (size_t)batch->node[slot][a] + (size_t)p] += share[slot][a] * stress[6 * a + p][slot];
+            add((const OstSimdFour *)of_tet, (const OstSimdTwo *)(of_tet + 4), share[slot][a],
+                sum + 6 * (size_t)batch->node[slot][a]);
+    }
 }
 
 static void average(int count, void *const *request, const Around *around)
@@ -357,9 +390,14 @@ static void average(int count, void *const *request, const Around *around)
         add_volumes(mesh, element->nodes, &batch, around, share);
         for (int k = 0; k < count; k++) {
             const Request *one = request[k];
+            const int uniform = is_uniform(one->result, element);
             OstSimd stress[6 * OST_MAX_TET_NODES];
+            if (uniform && one->result->stress && first + batch.count <= mesh->owned_tets) {
+                add_known(element->nodes, &batch, share, one->result->stress, one->stress);
+                continue;
+            }
             stress_of_batch(one->result, element, &batch, &at_nodes, &kept, stress);
-            add_batch(element->nodes, &batch, share, stress, one->stress);
+            add_batch(element->nodes, uniform, &batch, share, stress, one->stress);
         }
     }
     for (int k = 0; k < count; k++)

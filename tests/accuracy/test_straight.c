@@ -226,12 +226,14 @@ static void curved_tets_are_integrated_by_the_same_rule(void **state)
     unsigned seed = 23U;
     OstSimd x[3 * NODES], u[3 * NODES], w[3 * FUNCTIONS], forces[3 * (NODES + FUNCTIONS)];
     OstSimd at_functions[3 * FUNCTIONS], work, expected = {0}, block[FUNCTIONS][9];
+    OstCurvedPoint at[OST_MAX_POINTS];
     OstElasticity elasticity;
     make(&seed, 0.05, x, &elasticity);
     fill(&seed, 3 * NODES, u);
     memset(w, 0, sizeof w);
     assert_false(ost_straight_all(x));
-    ost_curved_forces(x, &elasticity, &ost_tet_degree5, u, at_functions, &work);
+    ost_curved_points(x, at);
+    ost_curved_forces(x, at, &elasticity, u, at_functions, &work);
     integrate(x, &elasticity, u, w, forces, block);
     for (int n = 0; n < 3 * NODES; n++)
         expected += u[n] * forces[n];

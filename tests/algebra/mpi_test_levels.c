@@ -255,7 +255,7 @@ static void the_coarsest_level_is_solved_exactly(void **state)
     OstCoarsest *coarsest = NULL;
     assert_success(ost_coarsest_create(s.levels.coarsest, 0.0, &coarsest));
     double *b = noise(a, 1), *x = noise(a, 2);
-    assert_success(ost_coarsest_solve(coarsest, b, x));
+    assert_success(ost_coarsest_solve(coarsest, 1, b, x));
     const double size = global_dot(owned(a), b, b);
     ost_level_matrix_add(a, -1.0, x, b);
     assert_true(sqrt(global_dot(owned(a), b, b) / size) < 1e-4); /* the product is in single precision */

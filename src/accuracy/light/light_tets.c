@@ -301,11 +301,18 @@ static inline void add_to_functions(const OstLightTets *tets, const Eights *eigh
 
 /* --- all tets --- */
 
+/* Four numbers at a time, of which the last is the next node's, or is written again. */
+typedef double AnyWide __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
 static void pad(const OstLightTets *tets, const double *u, double *padded)
 {
-    for (size_t n = 0; n < (size_t)tets->mesh->node_count; n++)
-        for (size_t i = 0; i < 3; i++)
-            padded[4 * n + i] = u[3 * n + i];
+    const size_t nodes = (size_t)tets->mesh->node_count;
+    if (!u)
+        memset(padded, 0, 4 * nodes * sizeof *padded);
+    for (size_t n = 0; u && n + 1 < nodes; n++)
+        *(AnyWide *)(padded + 4 * n) = *(const AnyWide *)(u + 3 * n);
+    if (u && nodes > 0)
+        memcpy(padded + 4 * (nodes - 1), u + 3 * (nodes - 1), 3 * sizeof *u);
 }
 
 static inline void find_eight(const OstLightTets *tets, size_t k, const float *functions, int by_stretch,
@@ -360,9 +367,8 @@ typedef struct Product {
     double *energy;
 } Product;
 
-static void open_product(const OstLightTets *tets, const Product *product, double *u, double *force)
+static void open_product(const OstLightTets *tets, const Product *product, double *force)
 {
-    pad(tets, product->u, u);
     if (product->energy)
         return;
     memset(force, 0, 4 * (size_t)tets->mesh->node_count * sizeof *force);
@@ -372,15 +378,18 @@ static void open_product(const OstLightTets *tets, const Product *product, doubl
 
 static void close_product(const OstLightTets *tets, const double *force, const Product *product)
 {
-    for (size_t n = 0; n < (size_t)tets->mesh->owned_nodes && !product->energy; n++)
-        for (size_t i = 0; i < 3; i++)
-            product->force[3 * n + i] = force[4 * n + i];
+    const size_t nodes = product->energy ? 0 : (size_t)tets->mesh->owned_nodes;
+    for (size_t n = 0; n + 1 < nodes; n++)
+        *(AnyWide *)(product->force + 3 * n) = *(const AnyWide *)(force + 4 * n);
+    if (nodes > 0)
+        memcpy(product->force + 3 * (nodes - 1), force + 4 * (nodes - 1), 3 * sizeof *force);
 }
 
 static void find_one(OstLightTets *tets, const Product *product)
 {
     const int is_quadratic = tets->mesh->nodes_per_tet == 10;
-    open_product(tets, product, tets->u, tets->force);
+    pad(tets, product->u, tets->u);
+    open_product(tets, product, tets->force);
     if (product->energy)
         (is_quadratic ? ost_quadratic_eights_energy : find_energies)(tets, product->w, product->energy);
     else
@@ -393,10 +402,14 @@ static void find_pair(OstLightTets *tets, void *const *product)
     const int is_quadratic = tets->mesh->nodes_per_tet == 10;
     const size_t numbers = 4 * (size_t)tets->mesh->node_count;
     double *const u[PAIR] = {tets->u, tets->second}, *const force[PAIR] = {tets->force, tets->second + numbers};
-    Pair pair;
+    Pair pair = {.at_rest = 1};
+    for (int k = 0; k < PAIR; k++)
+        pair.at_rest &= !((const Product *)product[k])->u;
     for (int k = 0; k < PAIR; k++) {
         const Product *one = product[k];
-        open_product(tets, one, u[k], force[k]);
+        if (!pair.at_rest)
+            pad(tets, one->u, u[k]);
+        open_product(tets, one, force[k]);
         pair.u[k] = u[k];
         pair.w[k] = one->w;
         pair.force[k] = force[k];

@@ -19,8 +19,8 @@ OstStatus ost_light_tets_create(const OstProblem *problem, const OstComplement *
                                 OstLightTets **tets);
 void ost_light_tets_destroy(OstLightTets **tets);
 
-/* Local. Forces of a displacement u of the nodes (3 numbers each), and w of the functions, ghosts included; those on
- * ghosts are not complete. */
+/* Local. Forces of a displacement u of the nodes (3 numbers each; NULL: at rest), and w of the functions, ghosts
+ * included; those on ghosts are not complete. */
 void ost_light_tets_apply(OstLightTets *tets, const double *u, const float *w, double *force, float *of_functions);
 
 /* Local. Twice the strain energy of each owned tet. */

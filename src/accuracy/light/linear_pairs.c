@@ -17,8 +17,10 @@ static inline void find_pair(const OstLightTets *tets, size_t k, int by_stretch,
     const Eights *eights = &tets->eights[k];
     Linear tet;
     open_linear(eights, tets->elastic + numbers_kept[tets->keeping] * k, by_stretch, &tet);
-    for (int v = 1; v < VERTICES; v++)
+    for (int v = 1; v < VERTICES && !pair->at_rest; v++)
         read_node_pair(tets, eights, pair, v, moved->nodes[v]);
+    if (pair->at_rest)
+        memset(moved->nodes, 0, sizeof moved->nodes);
     for (int e = 0; e < EDGES; e++)
         read_function_pair(tets, eights, pair, e, moved->functions[e]);
     find_forces(&tet, moved->nodes + 1, moved->functions, forces->nodes + 1, forces->functions);

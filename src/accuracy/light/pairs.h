@@ -74,6 +74,7 @@ typedef struct Pair {
     double *force[PAIR];
     float *of_functions[PAIR];
     double *energy[PAIR]; /* as ost_light_tets_energy */
+    int at_rest;          /* are both displacements 0? */
 } Pair;
 
 /* How a node of each of eight tets moves from vertex 0. */

@@ -85,19 +85,21 @@ static inline void integrate(const Straight *tet, const Kept *c, Number strain[P
 static inline void integrate_points(const Straight *tet, const AboutLine *line, const Kept *offset,
                                     Number strain[PRODUCTS][6], Number moment[PRODUCTS][6])
 {
-    memset(moment, 0, PRODUCTS * sizeof *moment);
+    Number sum[SUMS][6], of_stress[SUMS][6];
+    add_up(strain, sum);
+    memset(of_stress, 0, sizeof of_stress);
     for (int q = 0; q < ost_tet_degree5.count; q++) {
         const OstQuadraturePoint *point = &ost_tet_degree5.point[q];
         const Number weight = (float)point->weight * tet->volume;
+        const Mix mix = find_mix(q);
         Number here[6], stress[6];
         Eight tensor[6];
-        float product[PRODUCTS];
-        find_products(point->at, product);
-        find_strain_at(product, strain, here);
+        find_strain_at(&mix, sum, here);
         find_stretch_at(line, offset, point->at, tensor);
         find_stretch_stress(tensor, line->shear, here, stress);
-        add_moments(product, &weight, stress, moment);
+        add_moments(&mix, &weight, stress, of_stress);
     }
+    hand_out_sums(6, of_stress[0], moment[0]);
 }
 
 /* Forces of what nodes and functions have moved. */

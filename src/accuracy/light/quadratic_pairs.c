@@ -23,8 +23,8 @@ static inline void find_pair(const OstLightTets *tets, size_t k, const Pair *pai
                              Moved *moved, Moved *forces)
 {
     const Eights *eights = &tets->eights[k];
-    memset(moved->nodes[0], 0, sizeof moved->nodes[0]);
-    for (int a = 1; a < NODES; a++)
+    memset(moved->nodes, 0, pair->at_rest ? sizeof moved->nodes : sizeof moved->nodes[0]);
+    for (int a = 1; a < NODES && !pair->at_rest; a++)
         read_node_pair(tets, eights, pair, a, moved->nodes[a]);
     for (int n = 0; n < FUNCTIONS; n++) {
         read_function_pair(tets, eights, pair, n, moved->functions[n]);

@@ -2,6 +2,7 @@
 #ifndef ORTHOSTAT_ACCURACY_LIGHT_STRAIGHT_KERNEL_H
 #define ORTHOSTAT_ACCURACY_LIGHT_STRAIGHT_KERNEL_H
 
+#include "element/quadrature.h"
 #include "element/tets.h"
 
 #include <string.h>
@@ -55,6 +56,7 @@ static inline void add_own_strain(const Straight *tet, const Number *u, Number s
     }
     for (int a = 0; a < VERTICES; a++)
         memcpy(at_vertex[a], mean, sizeof mean);
+#pragma GCC unroll 6
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         Number h[3];
@@ -75,6 +77,7 @@ static inline void add_own_strain(const Straight *tet, const Number *u, Number s
 /* That of the functions: 8 L_a L_b (L_b - L_a), and 27 L_a L_b L_c. */
 static inline void add_surplus_strain(const Straight *tet, const Number *w, Number strain[PRODUCTS][6])
 {
+#pragma GCC unroll 6
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         Number by_a[6] = {{0}}, by_b[6] = {{0}};
@@ -86,6 +89,7 @@ static inline void add_surplus_strain(const Straight *tet, const Number *w, Numb
             strain[4 + e][p] += 2 * (by_b[p] - by_a[p]);
         }
     }
+#pragma GCC unroll 6
     for (int f = 0; f < 4; f++)
         for (int i = 0; i < 3; i++)
             add_strain(27, w + 3 * (EDGES + f), tet->gradient[ost_tet_face[f][i]], strain[4 + face_edge[f][i]]);
@@ -114,31 +118,88 @@ static inline void integrate_stress(const Straight *tet, Number stress[PRODUCTS]
     }
 }
 
-/* The products at a point of a rule. */
-static inline void find_products(const double at[VERTICES], Scalar product[PRODUCTS])
+/* The points of ost_tet_degree5 have two different coordinates: one at a vertex, or at the ends of an edge, and one
+ * elsewhere. So a value there is made of three sums of coefficients: of all, and two of a square, of the products with
+ * a vertex, and of all that an edge's ends have between them. */
+enum { ALL, SQUARE, WITH = SQUARE + VERTICES, WITHIN = WITH + VERTICES, SUMS = WITHIN + EDGES };
+
+typedef struct Mix {
+    int sum[2]; /* beside that of all, which is first in what follows */
+    Scalar factor[3];
+} Mix;
+
+static inline Mix find_mix(int q)
 {
-    for (int a = 0; a < VERTICES; a++)
-        product[a] = (Scalar)(at[a] * at[a]);
-    for (int e = 0; e < EDGES; e++)
-        product[VERTICES + e] = (Scalar)(at[ost_tet_edge[e][0]] * at[ost_tet_edge[e][1]]);
+    static const int edge[EDGES] = {0, 2, 3, 1, 4, 5}, opposite[EDGES] = {5, 3, 4, 1, 2, 0};
+    const double *at = ost_tet_degree5.point[q].at;
+    if (q < 2 * VERTICES) {
+        const int v = q % VERTICES;
+        const double b = at[v], a = at[(v + 1) % VERTICES];
+        return (Mix){{SQUARE + v, WITH + v}, {(Scalar)(a * a), (Scalar)(b * b - a * a), (Scalar)(a * b - a * a)}};
+    }
+    const int e = edge[q - 2 * VERTICES], other = opposite[e];
+    const double b = at[ost_tet_edge[e][0]], a = at[ost_tet_edge[other][0]];
+    return (Mix){{WITHIN + e, WITHIN + other}, {(Scalar)(a * b), (Scalar)(b * b - a * b), (Scalar)(a * a - a * b)}};
 }
 
-static inline void find_strain_at(const Scalar product[PRODUCTS], Number strain[PRODUCTS][6], Number here[6])
-{
-    memset(here, 0, 6 * sizeof *here);
-    for (int k = 0; k < PRODUCTS; k++)
-        for (int p = 0; p < 6; p++)
-            here[p] += product[k] * strain[k][p];
-}
-
-/* moment += what a point adds; `weight` is its part of the volume. */
-static inline void add_moments(const Scalar product[PRODUCTS], const Number *weight, const Number stress[6],
-                               Number moment[PRODUCTS][6])
+static inline void add_up(Number coefficient[PRODUCTS][6], Number sum[SUMS][6])
 {
     for (int p = 0; p < 6; p++) {
+        Number with[VERTICES] = {{0}}, edges = {0};
+        for (int v = 0; v < VERTICES; v++)
+            sum[SQUARE + v][p] = coefficient[v][p];
+#pragma GCC unroll 6
+        for (int e = 0; e < EDGES; e++) {
+            const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+            const Number here = coefficient[VERTICES + e][p];
+            with[a] += here;
+            with[b] += here;
+            edges += here;
+            sum[WITHIN + e][p] = coefficient[a][p] + coefficient[b][p] + here;
+        }
+        for (int v = 0; v < VERTICES; v++)
+            sum[WITH + v][p] = with[v];
+        sum[ALL][p] = coefficient[0][p] + coefficient[1][p] + coefficient[2][p] + coefficient[3][p] + edges;
+    }
+}
+
+/* The transposed, of `width` moments of each: every product has its part in the sums. */
+static inline void hand_out_sums(int width, const Number *sum, Number *moment)
+{
+    for (int p = 0; p < width; p++) {
+        Number of_vertex[VERTICES];
+        for (int v = 0; v < VERTICES; v++)
+            of_vertex[v] = sum[width * ALL + p] + sum[width * (SQUARE + v) + p];
+#pragma GCC unroll 6
+        for (int e = 0; e < EDGES; e++) {
+            const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
+            const Number within = sum[width * (WITHIN + e) + p];
+            of_vertex[a] += within;
+            of_vertex[b] += within;
+            moment[width * (VERTICES + e) + p] =
+                sum[width * ALL + p] + within + sum[width * (WITH + a) + p] + sum[width * (WITH + b) + p];
+        }
+        for (int v = 0; v < VERTICES; v++)
+            moment[width * v + p] = of_vertex[v];
+    }
+}
+
+static inline void find_strain_at(const Mix *mix, Number sum[SUMS][6], Number here[6])
+{
+    const Number *one = sum[mix->sum[0]], *other = sum[mix->sum[1]];
+    for (int p = 0; p < 6; p++)
+        here[p] = mix->factor[0] * sum[ALL][p] + mix->factor[1] * one[p] + mix->factor[2] * other[p];
+}
+
+/* sum += what a point adds to moments; `weight` is its part of the volume. */
+static inline void add_moments(const Mix *mix, const Number *weight, const Number stress[6], Number sum[SUMS][6])
+{
+    Number *one = sum[mix->sum[0]], *other = sum[mix->sum[1]];
+    for (int p = 0; p < 6; p++) {
         const Number weighted = *weight * stress[p];
-        for (int k = 0; k < PRODUCTS; k++)
-            moment[k][p] += product[k] * weighted;
+        sum[ALL][p] += mix->factor[0] * weighted;
+        one[p] += mix->factor[1] * weighted;
+        other[p] += mix->factor[2] * weighted;
     }
 }
 
@@ -157,6 +218,7 @@ static inline void find_own_forces(const Straight *tet, Number moment[PRODUCTS][
         at_nodes[3 * a] = at_nodes[3 * a + 1] = at_nodes[3 * a + 2] = (Number){0};
         add_force(1, tet->gradient[a], sum, at_nodes + 3 * a);
     }
+#pragma GCC unroll 6
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         Number *force = at_nodes + 3 * (4 + e);
@@ -179,6 +241,7 @@ static inline void find_own_forces(const Straight *tet, Number moment[PRODUCTS][
 static inline void find_surplus_forces(const Straight *tet, Number moment[PRODUCTS][6], Number *at_functions)
 {
     memset(at_functions, 0, 3 * (EDGES + 4) * sizeof *at_functions);
+#pragma GCC unroll 6
     for (int e = 0; e < EDGES; e++) {
         const int a = ost_tet_edge[e][0], b = ost_tet_edge[e][1];
         Number by_a[6], by_b[6];
@@ -189,6 +252,7 @@ static inline void find_surplus_forces(const Straight *tet, Number moment[PRODUC
         add_force(8, tet->gradient[a], by_a, at_functions + 3 * e);
         add_force(8, tet->gradient[b], by_b, at_functions + 3 * e);
     }
+#pragma GCC unroll 6
     for (int f = 0; f < 4; f++)
         for (int i = 0; i < 3; i++)
             add_force(27, tet->gradient[ost_tet_face[f][i]], moment[4 + face_edge[f][i]],

@@ -113,7 +113,7 @@ OstStatus ost_error_of_residual(const OstCgSystem *system, const OstPrecondition
                      .n = 3 * (size_t)matrix->rows,
                      .smallest = smallest,
                      .missing = missing};
-    OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &search.remaining, 3 * search.n)));
+    OST_TRY(ost_agree(matrix->ctx, OST_NEW_UNCLEARED(matrix->ctx, &search.remaining, 3 * search.n)));
     search.scaled = search.remaining + search.n;
     search.correction = search.scaled + search.n;
     const OstStatus status = find(&search, residual, error, found);

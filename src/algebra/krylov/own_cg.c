@@ -103,7 +103,7 @@ static OstStatus iterate(OwnRun *work, double *u)
 OstStatus ost_cg_run_by_own(OstCgRun *run, double *u, OstGoal *goal)
 {
     OwnRun work = {.run = run, .goal = goal};
-    OST_TRY(ost_agree(run->ctx, OST_NEW(run->ctx, &work.direction, 3 * run->n)));
+    OST_TRY(ost_agree(run->ctx, OST_NEW_UNCLEARED(run->ctx, &work.direction, 3 * run->n)));
     work.product = work.direction + run->n;
     work.corrected = work.product + run->n;
     const OstStatus status = iterate(&work, u);

@@ -60,6 +60,20 @@ static OstStatus recompute_residual(Refinement *work)
     return OST_SUCCESS;
 }
 
+/* That of u = 0 is f, which takes no product. */
+static OstStatus find_first_residual(Refinement *work)
+{
+    int moves = 0;
+    for (size_t i = 0; i < work->n && !moves; i++)
+        moves = work->u[i] != 0.0;
+    OST_TRY(ost_max_ints(work->matrix->ctx, 1, &moves));
+    if (moves)
+        return recompute_residual(work);
+    memcpy(work->residual, work->f, work->n * sizeof(double));
+    work->goal->norm = work->goal->start;
+    return OST_SUCCESS;
+}
+
 /* How much u may still change, by the geometric series of the corrections. One that is small enough for u to count as
  * settled says nothing of itself, only the later ones do: a strategy that takes over may begin with it. */
 static double find_drift(const Refinement *work)
@@ -182,7 +196,7 @@ static OstStatus find_correction(Refinement *work, OstInnerSolve inner, void *da
 static OstStatus refine(Refinement *work, OstInnerSolve inner, void *data)
 {
     OstGoal *goal = work->goal;
-    OST_TRY(recompute_residual(work));
+    OST_TRY(find_first_residual(work));
     ost_convergence_start(&goal->convergence, goal->norm);
     int stalls = 0;
     work->change = work->least_change = HUGE_VAL;
@@ -212,7 +226,7 @@ OstStatus ost_refine(const OstBlockMatrix *matrix, OstInnerSolve inner, void *da
         memset(u, 0, work.n * sizeof *u);
         return OST_SUCCESS;
     }
-    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
+    OST_TRY(ost_agree(ctx, OST_NEW_UNCLEARED(ctx, &work.residual, 3 * (work.n + (size_t)matrix->columns))));
     work.correction = work.residual + work.n;
     work.candidate_residual = work.correction + work.n;
     work.candidate = work.candidate_residual + work.n;

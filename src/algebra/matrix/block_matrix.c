@@ -126,8 +126,10 @@ static OstStatus apply_columns(const OstBlockMatrix *matrix, int count, const do
 {
     const size_t n = 3 * (size_t)matrix->rows;
     double *columns = NULL;
-    OST_TRY(ost_agree(matrix->ctx, OST_NEW(matrix->ctx, &columns, OST_COLUMNS * (n + 3 * (size_t)matrix->columns))));
+    OST_TRY(ost_agree(matrix->ctx,
+                      OST_NEW_UNCLEARED(matrix->ctx, &columns, OST_COLUMNS * (n + 3 * (size_t)matrix->columns))));
     double *products = columns + 3 * OST_COLUMNS * (size_t)matrix->columns;
+    memset(products, 0, OST_COLUMNS * n * sizeof *products);
     ost_columns_pack(n, count, x, columns);
     const OstStatus status = ost_halo_import(matrix->halo, 3 * sizeof(OstColumns), columns);
     if (status == OST_SUCCESS) {

@@ -130,7 +130,7 @@ static OstStatus factor_dense(const OstDoubleMatrix *matrix, OstCoarsest *coarse
     const size_t order = (size_t)coarsest->order;
     OstGlobal *number = NULL;
     OstStatus status;
-    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &coarsest->factor, order * order + order)));
+    OST_TRY_DONE(ost_agree(ctx, OST_NEW(ctx, &coarsest->factor, order * (order + OST_COLUMNS))));
     coarsest->vector = coarsest->factor + order * order;
     OST_TRY_DONE(ost_double_matrix_numbers(matrix, first_unknown(coarsest), &number));
     spread_rows(matrix, number, coarsest);
@@ -165,28 +165,38 @@ done:
     return status;
 }
 
-OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x)
+/* All unknowns of a vector. */
+static OstStatus gather_vector(const OstCoarsest *coarsest, const double *b, double *all)
 {
     OstContext *ctx = coarsest->ctx;
-    const int one = 1;
-    int info = 0;
-    if (coarsest->sparse)
-        return ost_mumps_solve(coarsest->sparse, b, x);
     if (coarsest->alone) {
-        if (coarsest->order == 0)
-            return OST_SUCCESS;
-        memcpy(coarsest->vector, b, (size_t)coarsest->owned * sizeof *b);
-    } else {
-        OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, coarsest->vector, coarsest->count,
-                                            coarsest->start, MPI_DOUBLE, ost_comm(ctx))));
-        ost_ledger_gathered(ctx, (double)coarsest->order * sizeof *b);
+        memcpy(all, b, (size_t)coarsest->owned * sizeof *b);
+        return OST_SUCCESS;
     }
-    const double entries = (double)coarsest->order * (double)coarsest->order;
+    OST_TRY(OST_MPI(ctx, MPI_Allgatherv(b, coarsest->owned, MPI_DOUBLE, all, coarsest->count, coarsest->start,
+                                        MPI_DOUBLE, ost_comm(ctx))));
+    ost_ledger_gathered(ctx, (double)coarsest->order * sizeof *b);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_coarsest_solve(OstCoarsest *coarsest, int columns, const double *b, double *x)
+{
+    OstContext *ctx = coarsest->ctx;
+    const size_t order = (size_t)coarsest->order, owned = (size_t)coarsest->owned;
+    int info = 0;
+    for (size_t k = 0; k < (size_t)columns && coarsest->sparse; k++)
+        OST_TRY(ost_mumps_solve(coarsest->sparse, b + k * owned, x + k * owned));
+    if (coarsest->sparse || order == 0)
+        return OST_SUCCESS;
+    for (size_t k = 0; k < (size_t)columns; k++)
+        OST_TRY(gather_vector(coarsest, b + k * owned, coarsest->vector + k * order));
+    const double entries = columns * (double)coarsest->order * (double)coarsest->order;
     ost_ledger_multiplied(ctx, coarsest->alone ? entries : entries / ost_size(ctx));
-    const int leading = coarsest->order > 0 ? coarsest->order : 1;
-    dpotrs_("L", &coarsest->order, &one, coarsest->factor, &leading, coarsest->vector, &leading, &info, 1);
+    dpotrs_("L", &coarsest->order, &columns, coarsest->factor, &coarsest->order, coarsest->vector, &coarsest->order,
+            &info, 1);
     if (info != 0)
         return OST_RAISE(ctx, OST_LIBRARY_FAILED, "LAPACK's dpotrs returned %d", info);
-    memcpy(x, coarsest->vector + first_unknown(coarsest), (size_t)coarsest->owned * sizeof *x);
+    for (size_t k = 0; k < (size_t)columns; k++)
+        memcpy(x + k * owned, coarsest->vector + k * order + first_unknown(coarsest), owned * sizeof *x);
     return OST_SUCCESS;
 }

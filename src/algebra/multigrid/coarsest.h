@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_MULTIGRID_COARSEST_H
 
 #include "algebra/direct/mumps.h"
+#include "algebra/matrix/columns.h"
 
 /* The factors of the coarsest level. A small matrix is factored whole by the rank that has all of it, or, where several
  * have it, on every rank, as messages would cost more than the arithmetic; a large one is factored by MUMPS. */
@@ -16,7 +17,7 @@ typedef struct OstCoarsest {
     int *count;       /* ranks: unknowns of each */
     int *start;       /* ranks: global number of the first */
     double *factor;   /* order × order: LAPACK's Cholesky factor */
-    double *vector;   /* order */
+    double *vector;   /* OST_COLUMNS of order */
 } OstCoarsest;
 
 /* The largest order that is factored as a dense matrix; above it MUMPS is faster. */
@@ -28,7 +29,7 @@ enum { OST_COARSEST_LIMIT = 2000 };
 OstStatus ost_coarsest_create(const OstDoubleMatrix *matrix, double memory, OstCoarsest **coarsest);
 void ost_coarsest_destroy(OstCoarsest **coarsest);
 
-/* Collective. Solves A x = b; b and x are this rank's unknowns. */
-OstStatus ost_coarsest_solve(OstCoarsest *coarsest, const double *b, double *x);
+/* Collective. Solves A x = b for up to OST_COLUMNS vectors, one after another in b and x, of this rank's unknowns. */
+OstStatus ost_coarsest_solve(OstCoarsest *coarsest, int columns, const double *b, double *x);
 
 #endif

@@ -108,7 +108,7 @@ static OstStatus smooth(void *data, const double *b, double *x, int from_zero)
     if (is_last)
         ost_ledger_visited(level->matrix->ctx);
     if (level->coarsest)
-        return leave(level, ost_coarsest_solve(level->coarsest, b, x));
+        return leave(level, ost_coarsest_solve(level->coarsest, 1, b, x));
     for (int sweep = 0; sweep < (is_last ? OST_COARSEST_SWEEPS : 1); sweep++)
         ost_smoother_apply(level->smoother, b, x, from_zero && sweep == 0);
     return leave(level, OST_SUCCESS);

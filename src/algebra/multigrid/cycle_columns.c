@@ -16,7 +16,7 @@ typedef struct Level {
     OstLightColumns *sum;      /* of a sweep's steps, over the rows */
     OstLightColumns *coarse;   /* over the columns of its prolongator */
     OstColumns *of_linear;     /* over the columns of the linear tets; or NULL */
-    double *one;               /* one vector, of the coarsest level */
+    double *one;               /* OST_COLUMNS vectors of the coarsest level, twice */
 } Level;
 
 struct OstCycleColumns {
@@ -118,14 +118,15 @@ static void sweep(const Level *level, const double *b, double *x, int from_zero)
 static OstStatus solve(const Level *level, const double *b, double *x)
 {
     const size_t n = ost_level_unknowns(level->of->matrix);
-    double *left = level->one, *right = level->one + n;
+    double *left = level->one, *right = level->one + OST_COLUMNS * n, *to[OST_COLUMNS];
+    const double *from[OST_COLUMNS];
     for (size_t k = 0; k < OST_COLUMNS; k++) {
-        for (size_t i = 0; i < n; i++)
-            right[i] = b[OST_COLUMNS * i + k];
-        OST_TRY(ost_coarsest_solve(level->of->coarsest, right, left));
-        for (size_t i = 0; i < n; i++)
-            x[OST_COLUMNS * i + k] = left[i];
+        to[k] = right + k * n;
+        from[k] = left + k * n;
     }
+    ost_columns_unpack(n, OST_COLUMNS, b, to);
+    OST_TRY(ost_coarsest_solve(level->of->coarsest, OST_COLUMNS, right, left));
+    ost_columns_pack(n, OST_COLUMNS, from, x);
     return OST_SUCCESS;
 }
 
@@ -181,7 +182,7 @@ static OstStatus create_level(OstContext *ctx, const OstCycle *cycle, int l, Lev
         OST_TRY(OST_NEW(ctx, &level->coarse, OST_MODES * (size_t)of->prolongator->columns));
     if (of->quadratic)
         OST_TRY(OST_NEW(ctx, &level->of_linear, 3 * (size_t)of->quadratic->space.matrix->columns));
-    return of->coarsest ? OST_NEW(ctx, &level->one, 2 * ost_level_unknowns(of->matrix)) : OST_SUCCESS;
+    return of->coarsest ? OST_NEW(ctx, &level->one, 2 * OST_COLUMNS * ost_level_unknowns(of->matrix)) : OST_SUCCESS;
 }
 
 static OstStatus hand_to_ml(OstContext *ctx, OstCycleColumns *columns)

@@ -187,7 +187,8 @@ OstStatus ost_ml_cycle_apply(OstMlCycle *cycle, int half, const double *r, doubl
     ML *ml = cycle->ml;
     cycle->half = half;
     ml->ML_scheme = half ? ML_MGV : ML_MGW;
-    memset(z, 0, (size_t)cycle->level[0].operators.unknowns * sizeof *z);
+    if (half) /* else the first smoothing writes it */
+        memset(z, 0, (size_t)cycle->level[0].operators.unknowns * sizeof *z);
     ML_Cycle_MG(&ml->SingleLevel[0], z, (double *)r, ML_ZERO, ml->comm, ML_NO_RES_NORM, ml);
     return cycle->status;
 }

@@ -65,16 +65,6 @@ OST_KERNEL static void find_forces(int nodes, const Stressed *tets, const OstSim
     }
 }
 
-static void scatter(const OstBatch *batch, int nodes, OstLocal owned, const OstSimd *of_tets, double *force)
-{
-    for (int slot = 0; slot < batch->count; slot++)
-        for (int a = 0; a < nodes; a++) {
-            const OstLocal node = batch->node[slot][a];
-            for (int i = 0; i < 3 && node < owned; i++)
-                force[3 * (size_t)node + (size_t)i] += of_tets[3 * a + i][slot];
-        }
-}
-
 void ost_stress_force(const OstMesh *mesh, const OstMaterialField *field, double share, const double *u, int count,
                       double *const *v, double *const *force)
 {
@@ -94,7 +84,7 @@ void ost_stress_force(const OstMesh *mesh, const OstMaterialField *field, double
         for (int k = 0; k < count; k++) {
             ost_batch_gather_vectors(&batch, element->nodes, v[k], of_nodes);
             find_forces(element->nodes, &tets, of_nodes, of_tets);
-            scatter(&batch, element->nodes, mesh->owned_nodes, of_tets, force[k]);
+            ost_batch_scatter_vectors(&batch, element->nodes, of_tets, 1.0, mesh->owned_nodes, force[k]);
         }
     }
 }
