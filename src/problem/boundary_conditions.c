@@ -299,11 +299,11 @@ static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, do
     return status;
 }
 
-static OstResultant resultant_of(const OstScene *scene, const OstLoad *load)
+static OstResultant resultant_of(const OstScene *scene, const OstLoad *load, int function)
 {
     OstResultant resultant = {.acts_at = load->acts_at};
     if (load->kind == OST_LOAD_DISTRIBUTING) {
-        const double *drive = scene->drive + 6 * (load - scene->c->loads);
+        const double *drive = scene->drive + 6 * (function * scene->c->load_count + (load - scene->c->loads));
         memcpy(resultant.force, drive, sizeof resultant.force);
         memcpy(resultant.moment, drive + 3, sizeof resultant.moment);
     } else
@@ -312,10 +312,10 @@ static OstResultant resultant_of(const OstScene *scene, const OstLoad *load)
     return resultant;
 }
 
-OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
+OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int function, int *on_faces, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces, OstSpread *spread)
 {
-    const OstResultant resultant = resultant_of(scene, load);
+    const OstResultant resultant = resultant_of(scene, load, function);
     *on_faces = 0;
     if (load->share == OST_SHARE_VERTICES)
         return OST_SUCCESS;
@@ -328,7 +328,7 @@ OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_f
 
 static OstStatus add_moment_on_vertices(const OstScene *scene, const OstLoad *load, double *force)
 {
-    const OstResultant resultant = resultant_of(scene, load);
+    const OstResultant resultant = resultant_of(scene, load, 0);
     OstSpread spread;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
@@ -346,7 +346,7 @@ static OstStatus add_moment(const OstScene *scene, const OstLoad *load, double *
     OstLocal *faces = NULL;
     int on_faces = 0, nodes_per_face = 3;
     OstSpread spread;
-    const OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &faces, &spread);
+    const OstStatus status = ost_scene_spread(scene, load, 0, &on_faces, &count, &nodes_per_face, &faces, &spread);
     if (status == OST_SUCCESS && on_faces)
         ost_load_spread_on_faces(scene->mesh, count, faces, nodes_per_face, &spread, force);
     OST_FREE(faces);

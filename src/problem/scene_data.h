@@ -16,7 +16,8 @@ struct OstScene {
     const OstCase *c;
     OstPlan plan;           /* its effects decide what is computed */
     OstEffect *load_effect; /* of each load of the case */
-    double *drive; /* 6 for each load: force and moment of a distributing coupling, found by the solve; NULL: no such */
+    double *drive; /* of each function of time 6 for each load: force and moment of a distributing coupling, found by
+                      the solve; NULL: no such */
     OstFileMaterials *from_file; /* that came with the mesh file, or NULL */
     OstMesh *mesh;
     OstMaterialField *field;

@@ -110,7 +110,7 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
         memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->owned * sizeof(double));
         OST_TRY(ost_pressure_complete(problem->pressures, state->slope + nodes));
     }
-    ost_turned_couplings_begin(problem,
+    ost_turned_couplings_begin(problem, 1.0,
                                state->slope + ost_newton_state_size(problem) - ost_turned_couplings_count(problem));
     state->step = ost_newton_first_step(result->newton.linear_rotation);
     if (has_pose(analysis)) {

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "solve/distributing/turned.h"
 #include "solve/linear.h"
 #include "solve/path_data.h"
 
@@ -149,6 +150,11 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
         path->state.slope[i] = result->displacement[i] / span;
     for (OstLocal i = 0; problem->pressures && i < problem->pressures->count; i++)
         path->state.slope[3 * (size_t)problem->mesh->node_count + (size_t)i] = linear->pressure[i] / span;
+    const size_t multipliers = (size_t)ost_turned_couplings_count(problem);
+    double *multiplier = path->state.slope + ost_newton_state_size(problem) - multipliers;
+    ost_turned_couplings_begin(problem, t, multiplier);
+    for (size_t k = 0; k < multipliers; k++)
+        multiplier[k] /= span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
     ost_superposition_release(&path->linear);
     return OST_SUCCESS;

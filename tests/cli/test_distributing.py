@@ -119,7 +119,6 @@ for a, b, step, kind in PAIRS:
 
 MOVED = "loads: [{on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.02, free, free]}}]\n"
 for text, words in ((MOVED.replace("displacement: [0.02, free, free]", "displacement: [free, free, free]"), "no component"),
-                    (MOVED + "path: {steps: 2}\n", "leave out 'path'"),
                     (MOVED.replace("xmax", "xmin"), "given already"),
                     (MOVED.replace("}}]", "}}, {on: {boundary: xmax}, distributing: {at: [10, 0.5, 0.5], displacement: [0.03, free, free]}}]"),
                      "given already")):

@@ -24,6 +24,7 @@ typedef struct Motion {
 typedef struct Search {
     OstProblem *problem;
     OstSolver *solver;
+    int function;               /* of time */
     const double *rhs, *volume; /* volume: of the pressures, or NULL */
     int count;
     Motion *motion;
@@ -65,7 +66,10 @@ static OstStatus open_search(Search *search)
     for (int i = 0; i < c->load_count && status == OST_SUCCESS; i++)
         for (int k = 0; k < 6 && c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
             if (c->loads[i].moved[k])
-                search->motion[search->count++] = (Motion){.load = i, .component = k, .given = c->loads[i].motion[k]};
+                search->motion[search->count++] =
+                    (Motion){.load = i,
+                             .component = k,
+                             .given = c->loads[i].table == search->function ? c->loads[i].motion[k] : 0.0};
     for (int k = 0; k < search->count && status == OST_SUCCESS; k++) {
         status = OST_NEW(ctx, &search->motion[k].force, nodes);
         OST_THEN(OST_NEW(ctx, &search->motion[k].v, rows));
@@ -117,7 +121,7 @@ static OstStatus find_lack(Search *search)
     const OstProblem *problem = search->problem;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
     memset(search->of_rows, 0, rows * sizeof(double));
-    OST_TRY(ost_problem_displacement(problem, 1.0, search->of_rows, search->u));
+    OST_TRY(ost_problem_function_displacement(problem, search->function, search->of_rows, search->u));
     for (int k = 0; k < search->count; k++) {
         double sum = mean_motion(search, &search->motion[k]);
         for (size_t i = 0; i < rows; i++)
@@ -165,23 +169,24 @@ static OstStatus find_sizes(Search *search)
 static OstStatus apply(Search *search)
 {
     OstProblem *problem = search->problem;
-    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &problem->driven, owned)));
-    memset(problem->scene->drive, 0, 6 * (size_t)problem->scene->c->load_count * sizeof(double));
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes, loads = 6 * (size_t)problem->scene->c->load_count;
+    OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
+    double *drive = problem->scene->drive + (size_t)search->function * loads;
+    double *driven = problem->driven + (size_t)search->function * owned;
+    memset(drive, 0, loads * sizeof *drive);
     for (int k = 0; k < search->count; k++) {
         const Motion *motion = &search->motion[k];
-        problem->scene->drive[6 * (size_t)motion->load + (size_t)motion->component] = search->size[k];
+        drive[6 * motion->load + motion->component] = search->size[k];
         for (size_t i = 0; i < owned; i++)
-            problem->driven[i] += search->size[k] * motion->force[i];
+            driven[i] += search->size[k] * motion->force[i];
     }
-    for (size_t i = 0; i < owned; i++)
-        problem->force[i] += problem->driven[i];
     return OST_SUCCESS;
 }
 
-OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs, const double *volume)
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, int function, const double *rhs,
+                                const double *volume)
 {
-    Search search = {.problem = problem, .solver = solver, .rhs = rhs, .volume = volume};
+    Search search = {.problem = problem, .solver = solver, .function = function, .rhs = rhs, .volume = volume};
     ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
     OstStatus status = open_search(&search);
     OST_THEN(find_sizes(&search));
@@ -191,18 +196,24 @@ OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const do
     return status;
 }
 
+OstStatus ost_distributing_make_room(OstProblem *problem)
+{
+    const size_t count = 3 * (size_t)problem->mesh->owned_nodes * (size_t)ost_problem_functions(problem);
+    return problem->driven ? OST_SUCCESS : OST_NEW(problem->ctx, &problem->driven, count);
+}
+
 void ost_distributing_forget(OstProblem *problem)
 {
-    for (size_t i = 0; problem->driven && i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        problem->force[i] -= problem->driven[i];
     OST_FREE(problem->driven);
 }
 
 OstStatus ost_distributing_react(const OstProblem *problem, double t, OstResult *result)
 {
-    const double factor = ost_problem_factor(problem, 0, t);
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++) {
-        const double driven = factor * problem->driven[i];
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    for (size_t i = 0; i < owned; i++) {
+        double driven = 0.0;
+        for (int k = 0; k < ost_problem_functions(problem); k++)
+            driven += ost_problem_factor(problem, k, t) * problem->driven[(size_t)k * owned + i];
         result->force[i] -= driven;
         result->reaction[i] += driven;
         if (result->passed)

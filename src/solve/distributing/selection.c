@@ -29,7 +29,7 @@ static OstStatus spread_on(const OstScene *scene, const OstLoad *load, const dou
     OstSpread spread = {.mean = {0.0}};
     OstLocal count = 0, *items = NULL;
     int on_faces = 0, nodes_per_face = 3;
-    OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &items, &spread);
+    OstStatus status = ost_scene_spread(scene, load, 0, &on_faces, &count, &nodes_per_face, &items, &spread);
     if (status == OST_SUCCESS && !on_faces) {
         OST_FREE(items);
         status = ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &items);

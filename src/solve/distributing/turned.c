@@ -59,15 +59,19 @@ int ost_turned_couplings_count(const OstProblem *problem)
     return count;
 }
 
-void ost_turned_couplings_begin(const OstProblem *problem, double *multipliers)
+void ost_turned_couplings_begin(const OstProblem *problem, double t, double *multipliers)
 {
     const OstScene *scene = problem->scene;
     if (!ost_distributing_any(problem))
         return;
     for (int i = 0; i < scene->c->load_count; i++)
-        for (int k = 0; k < OST_MOST_GIVEN && scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
+        for (int k = 0; k < OST_MOST_GIVEN && scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++) {
+            double sum = 0.0;
+            for (int f = 0; f < ost_problem_functions(problem); f++)
+                sum += ost_problem_factor(problem, f, t) * scene->drive[6 * (f * scene->c->load_count + i) + k];
             if (scene->c->loads[i].moved[k])
-                *multipliers++ = scene->drive[6 * i + k];
+                *multipliers++ = sum;
+        }
 }
 
 static OstStatus open_couplings(OstTurnedCouplings *all)
@@ -77,7 +81,8 @@ static OstStatus open_couplings(OstTurnedCouplings *all)
     OstStatus status = OST_NEW(scene->ctx, &force, 3 * (size_t)scene->mesh->node_count);
     OST_THEN(OST_NEW(scene->ctx, &all->coupling, (size_t)scene->c->load_count));
     status = ost_agree(scene->ctx, status);
-    memset(scene->drive, 0, 6 * (size_t)scene->c->load_count * sizeof *scene->drive);
+    memset(scene->drive, 0,
+           6 * (size_t)(scene->c->load_count * ost_problem_functions(all->problem)) * sizeof *scene->drive);
     for (int i = 0; i < scene->c->load_count && status == OST_SUCCESS; i++) {
         if (scene->c->loads[i].kind != OST_LOAD_DISTRIBUTING)
             continue;
@@ -158,10 +163,12 @@ OstStatus ost_turned_couplings_move(OstTurnedCouplings *all, double t, const dou
 {
     OstContext *ctx = all->problem->ctx;
     ost_ledger_enter(ctx, OST_EFFECT_MOVED_COUPLING);
-    for (int c = 0; c < all->count; c++)
+    for (int c = 0; c < all->count; c++) {
+        const OstLoad *load = all->coupling[c].load;
         for (int k = 0; k < all->coupling[c].count; k++)
             all->coupling[c].given[k] =
-                ost_problem_factor(all->problem, 0, t) * all->coupling[c].load->motion[all->coupling[c].component[k]];
+                ost_problem_factor(all->problem, load->table, t) * load->motion[all->coupling[c].component[k]];
+    }
     memcpy(all->x, multipliers, (size_t)all->components * sizeof *multipliers);
     OstStatus status = find_sums(all, u, all->z);
     OST_THEN(find_state(all));
@@ -356,12 +363,15 @@ OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *all, double t)
 {
     OstProblem *problem = all->problem;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    const double factor = ost_problem_factor(problem, 0, t);
-    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &problem->driven, owned)));
-    ost_turned_couplings_add(all, problem->driven);
-    for (size_t i = 0; i < owned; i++) {
-        problem->driven[i] /= factor != 0.0 ? factor : 1.0;
-        problem->force[i] += problem->driven[i];
-    }
+    int function = 0;
+    for (int k = 1; k < ost_problem_functions(problem); k++)
+        if (fabs(ost_problem_factor(problem, k, t)) > fabs(ost_problem_factor(problem, function, t)))
+            function = k;
+    const double factor = ost_problem_factor(problem, function, t);
+    OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
+    double *driven = problem->driven + (size_t)function * owned;
+    ost_turned_couplings_add(all, driven);
+    for (size_t i = 0; i < owned; i++)
+        driven[i] /= factor != 0.0 ? factor : 1.0;
     return OST_SUCCESS;
 }
