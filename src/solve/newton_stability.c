@@ -111,7 +111,7 @@ static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     OST_TRY(smooth_forces(newton, newton->residual, &size));
     OST_TRY(ost_newton_solve_held(newton, 1e-3, newton->residual, &found));
-    if (newton->indefinite)
+    if (newton->indefinite || newton->by_factors)
         OST_TRY(ost_solver_count_negative(newton->stiffness->solver,
                                           ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL, &negative,
                                           &known));

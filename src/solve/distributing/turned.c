@@ -176,6 +176,11 @@ OstStatus ost_turned_couplings_move(OstTurnedCouplings *all, double t, const dou
     return ost_agree(ctx, status);
 }
 
+int ost_turned_couplings_sums(const OstTurnedCouplings *all)
+{
+    return all->sums;
+}
+
 void ost_turned_couplings_add(const OstTurnedCouplings *all, double *force)
 {
     add_resultant(all, all->h, force);

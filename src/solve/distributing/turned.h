@@ -29,6 +29,9 @@ void ost_turned_couplings_destroy(OstTurnedCouplings **couplings);
 OstStatus ost_turned_couplings_move(OstTurnedCouplings *couplings, double t, const double *u,
                                     const double *multipliers);
 
+/* Local. How many solves a correction takes. */
+int ost_turned_couplings_sums(const OstTurnedCouplings *couplings);
+
 /* Local. Adds their forces there to those of the owned nodes. */
 void ost_turned_couplings_add(const OstTurnedCouplings *couplings, double *force);
 
