@@ -5,7 +5,6 @@
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
 #include "solve/buckling/buckling.h"
-#include "solve/distributing/distributing.h"
 #include "solve/left_out/left_out.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
@@ -194,7 +193,7 @@ OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *resu
     if (!linear->stiffness.solver)
         status = ost_stiffness_solver_make(&linear->stiffness);
     OST_THEN(ost_left_out_find(analysis->problem, linear->stiffness.solver, result));
-    if (result->newton.linear_error <= analysis->problem->accuracy && !ost_distributing_any(analysis->problem))
+    if (result->newton.linear_error <= analysis->problem->accuracy)
         OST_THEN(ost_buckling_judge(analysis->problem, linear->stiffness.solver, result));
     ost_ledger_leave(analysis->ctx);
     return status;

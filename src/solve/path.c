@@ -103,6 +103,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
         return OST_SUCCESS;
     for (int i = 0; i < path->count; i++) {
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, path->times[i], result, &solved_for));
+        result->t = path->times[i];
         OST_TRY(ost_nonlinear_judge(problem, result));
         if (i == 0 || result->newton.linear_error > path->judged.linear_error)
             path->judged = result->newton;
@@ -112,6 +113,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
     }
     if (problem->automatic && path->judged.linear_error <= problem->accuracy) {
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
+        result->t = strained;
         OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
         OST_FREE(result->left_out, result->left_out_reaction); /* of that time alone */
         if (result->buckling.known)
@@ -122,6 +124,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
         path->judged.linear_change = result->newton.linear_change;
         path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_error);
     }
+    result->t = 1.0;
     path->nonlinear = !ost_nonlinear_stays_linear(problem, path->judged.linear_error);
     return OST_SUCCESS;
 }

@@ -22,7 +22,7 @@ typedef struct Motion {
 } Motion;
 
 typedef struct Search {
-    OstProblem *problem;
+    const OstProblem *problem;
     OstSolver *solver;
     int function;               /* of time */
     const double *rhs, *volume; /* volume: of the pressures, or NULL */
@@ -99,11 +99,14 @@ static OstStatus respond(Search *search, int k)
 {
     const OstProblem *problem = search->problem;
     Motion *motion = &search->motion[k];
-    double *drive = problem->scene->drive + 6 * (size_t)motion->load;
+    double *drive = problem->scene->drive + 6 * (size_t)motion->load, before[6];
     OstSolveReport report;
-    memset(drive, 0, 6 * sizeof *drive);
+    memcpy(before, drive, sizeof before);
+    memset(drive, 0, sizeof before);
     drive[motion->component] = 1.0;
-    OST_TRY(ost_scene_load(problem->scene, motion->load, motion->force));
+    const OstStatus status = ost_scene_load(problem->scene, motion->load, motion->force);
+    memcpy(drive, before, sizeof before);
+    OST_TRY(status);
     OST_TRY(ost_system_take_rows(problem->system, motion->force, search->of_rows));
     const OstSaddle saddle = {problem->coupling, search->zero, motion->p};
     OST_TRY(ost_solver_solve_mixed(search->solver, problem->pressures ? &saddle : NULL, search->of_rows, motion->v,
@@ -166,9 +169,8 @@ static OstStatus find_sizes(Search *search)
     return OST_SUCCESS;
 }
 
-static OstStatus apply(Search *search)
+static OstStatus apply(const Search *search, OstProblem *problem)
 {
-    OstProblem *problem = search->problem;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes, loads = 6 * (size_t)problem->scene->c->load_count;
     OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
     double *drive = problem->scene->drive + (size_t)search->function * loads;
@@ -190,10 +192,52 @@ OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, int func
     ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
     OstStatus status = open_search(&search);
     OST_THEN(find_sizes(&search));
-    OST_THEN(apply(&search));
+    OST_THEN(apply(&search, problem));
     close_search(&search);
     ost_ledger_leave(problem->ctx);
     return status;
+}
+
+static OstStatus take_responses(const Search *search, OstResponses *responses)
+{
+    const OstProblem *problem = search->problem;
+    const size_t count = (size_t)search->count, rows = 3 * (size_t)problem->system->matrix->rows;
+    const size_t pressures = problem->pressures ? ost_problem_pressure_room(problem) : 0;
+    *responses = (OstResponses){.count = search->count, .rows = rows, .pressures = pressures};
+    OstStatus status = OST_NEW(problem->ctx, &responses->force, count * rows);
+    OST_THEN(OST_NEW(problem->ctx, &responses->response, count * rows));
+    OST_THEN(OST_NEW(problem->ctx, &responses->pressure, count * pressures));
+    OST_THEN(OST_NEW(problem->ctx, &responses->products, count * count));
+    status = ost_agree(problem->ctx, status);
+    for (size_t k = 0; k < count && status == OST_SUCCESS; k++) {
+        const Motion *motion = &search->motion[k];
+        memcpy(responses->response + k * rows, motion->v, rows * sizeof(double));
+        if (pressures > 0)
+            memcpy(responses->pressure + k * pressures, motion->p, pressures * sizeof(double));
+        status = ost_system_take_rows(problem->system, motion->force, responses->force + k * rows);
+    }
+    if (status == OST_SUCCESS)
+        memcpy(responses->products, search->matrix, count * count * sizeof(double));
+    return status;
+}
+
+OstStatus ost_distributing_respond(const OstProblem *problem, OstSolver *solver, OstResponses *responses)
+{
+    Search search = {.problem = problem, .solver = solver};
+    ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
+    OstStatus status = open_search(&search);
+    for (int k = 0; k < search.count && status == OST_SUCCESS; k++)
+        status = respond(&search, k);
+    OST_THEN(ost_sum(problem->ctx, search.count * search.count, search.matrix));
+    OST_THEN(take_responses(&search, responses));
+    close_search(&search);
+    ost_ledger_leave(problem->ctx);
+    return status;
+}
+
+void ost_responses_release(OstResponses *responses)
+{
+    OST_FREE(responses->force, responses->response, responses->pressure, responses->products);
 }
 
 OstStatus ost_distributing_make_room(OstProblem *problem)

@@ -19,6 +19,19 @@ int ost_distributing_any(const OstProblem *problem);
 OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, int function, const double *rhs,
                                 const double *volume);
 
+/* Unit forces of all that is given, and the responses to them; the caller's. */
+typedef struct OstResponses {
+    int count;
+    size_t rows, pressures;   /* numbers of one; 0 pressures without a mixed form */
+    double *force, *response; /* count × rows */
+    double *pressure;         /* count × pressures: those of the responses, ghosts too; or NULL */
+    double *products;         /* count × count: forces times responses */
+} OstResponses;
+
+/* Collective. By a solve for each. */
+OstStatus ost_distributing_respond(const OstProblem *problem, OstSolver *solver, OstResponses *responses);
+void ost_responses_release(OstResponses *responses);
+
 /* Local. Room for the forces of all functions, as part of the problem's load. */
 OstStatus ost_distributing_make_room(OstProblem *problem);
 
