@@ -303,9 +303,9 @@ static OstResultant resultant_of(const OstScene *scene, const OstLoad *load, int
 {
     OstResultant resultant = {.acts_at = load->acts_at};
     if (load->kind == OST_LOAD_DISTRIBUTING) {
-        const double *drive = scene->drive + 6 * (function * scene->c->load_count + (load - scene->c->loads));
-        memcpy(resultant.force, drive, sizeof resultant.force);
-        memcpy(resultant.moment, drive + 3, sizeof resultant.moment);
+        const OstDrive *drive = ost_scene_drive(scene, function, (int)(load - scene->c->loads));
+        memcpy(resultant.force, drive->of_point, sizeof resultant.force);
+        memcpy(resultant.moment, drive->of_point + 3, sizeof resultant.moment);
     } else
         memcpy(load->kind == OST_LOAD_MOMENT ? resultant.moment : resultant.force, load->vector, sizeof load->vector);
     memcpy(resultant.at, load->at, sizeof load->at);
@@ -322,8 +322,16 @@ OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int funct
     OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, count, nodes_per_face, faces));
     *on_faces = *count > 0 || load->share == OST_SHARE_FACES;
     OST_TRY(ost_max_ints(scene->ctx, 1, on_faces));
-    return *on_faces ? ost_spread_over_faces(scene->mesh, *count, *faces, *nodes_per_face, &resultant, spread)
-                     : OST_SUCCESS;
+    if (!*on_faces)
+        return OST_SUCCESS;
+    OST_TRY(ost_spread_over_faces(scene->mesh, *count, *faces, *nodes_per_face, &resultant, spread));
+    if (load->kind != OST_LOAD_DISTRIBUTING)
+        return OST_SUCCESS;
+    const OstDrive *drive = ost_scene_drive(scene, function, (int)(load - scene->c->loads));
+    for (int i = 0; i < 3; i++)
+        spread->mean[i] += drive->mean[i];
+    memcpy(spread->gradient, drive->gradient, sizeof spread->gradient);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_moment_on_vertices(const OstScene *scene, const OstLoad *load, double *force)

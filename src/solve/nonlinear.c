@@ -166,7 +166,9 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (status == OST_SUCCESS) {
         status = ost_nonlinear_advance(newton, result->newton.linear_strain, 1.0, &state);
         if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
-            const OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
+            OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
+            if (filled == OST_SUCCESS && ost_turned_couplings_count(problem) > 0)
+                filled = ost_analysis_take_loading(analysis);
             status = filled == OST_SUCCESS ? status : filled;
         }
     }

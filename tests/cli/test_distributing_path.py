@@ -76,3 +76,13 @@ for theory, angle in ("on", -1.5), ("off", -0.05):
     for step, single in (there[0], half), (there[1], case(0, "", "")):
         expected, _ = solve(single)
         check(not differ(step, expected[0], 1e-6), f"large_rotation {theory}: {differ(step, expected[0], 1e-6)}")
+
+# --- the estimated error of a strip whose end a coupling turns falls as the mesh is refined: the estimate knows the coupling's forces ---
+relative = []
+for cells in 6, 12:
+    folder = new_folder()
+    write(folder, "strip.yaml", STRIP.replace("[6, 1, 1]", f"[{cells}, 1, 1]") + HALF)
+    finished = run("solve", "strip.yaml", "-q", "--json", "-", folder=folder)
+    check(finished.exit_code == 0, finished.errors)
+    relative.append(json.loads(finished.output)["answer_error"]["relative"])
+check(relative[1] <= 0.4 * relative[0] and relative[0] <= 0.2, f"estimated errors with 6 and 12 cells: {relative}")

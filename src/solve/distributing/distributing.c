@@ -99,13 +99,13 @@ static OstStatus respond(Search *search, int k)
 {
     const OstProblem *problem = search->problem;
     Motion *motion = &search->motion[k];
-    double *drive = problem->scene->drive + 6 * (size_t)motion->load, before[6];
+    OstDrive *drive = ost_scene_drive(problem->scene, 0, motion->load);
+    const OstDrive before = *drive;
     OstSolveReport report;
-    memcpy(before, drive, sizeof before);
-    memset(drive, 0, sizeof before);
-    drive[motion->component] = 1.0;
+    *drive = (OstDrive){.of_point = {0.0}};
+    drive->of_point[motion->component] = 1.0;
     const OstStatus status = ost_scene_load(problem->scene, motion->load, motion->force);
-    memcpy(drive, before, sizeof before);
+    *drive = before;
     OST_TRY(status);
     OST_TRY(ost_system_take_rows(problem->system, motion->force, search->of_rows));
     const OstSaddle saddle = {problem->coupling, search->zero, motion->p};
@@ -171,14 +171,14 @@ static OstStatus find_sizes(Search *search)
 
 static OstStatus apply(const Search *search, OstProblem *problem)
 {
-    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes, loads = 6 * (size_t)problem->scene->c->load_count;
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
     OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
-    double *drive = problem->scene->drive + (size_t)search->function * loads;
+    OstDrive *drive = ost_scene_drive(problem->scene, search->function, 0);
     double *driven = problem->driven + (size_t)search->function * owned;
-    memset(drive, 0, loads * sizeof *drive);
+    memset(drive, 0, (size_t)problem->scene->c->load_count * sizeof *drive);
     for (int k = 0; k < search->count; k++) {
         const Motion *motion = &search->motion[k];
-        drive[6 * motion->load + motion->component] = search->size[k];
+        drive[motion->load].of_point[motion->component] = search->size[k];
         for (size_t i = 0; i < owned; i++)
             driven[i] += search->size[k] * motion->force[i];
     }

@@ -49,7 +49,7 @@ static OstStatus find_curvature(const OstProblem *problem, int load, double t, d
     for (int k = 0; k < curvature->selection.count; k++)
         for (int f = 0; f < ost_problem_functions(problem); f++)
             x[k] += ost_problem_factor(problem, f, t) *
-                    scene->drive[6 * (f * scene->c->load_count + load) + curvature->selection.component[k]];
+                    ost_scene_drive(scene, f, load)->of_point[curvature->selection.component[k]];
     return ost_moved_selection_state(problem->ctx, &curvature->selection, z, x, OST_MOST_SUMS, lack, slope, h,
                                      curvature->bend);
 }

@@ -94,6 +94,7 @@ static OstStatus measure(const OstScene *scene, double *force, OstMovedSelection
     for (size_t n = 0; n < owned; n++)
         area += selection->share[n] = force[3 * n];
     OST_TRY(ost_sum(scene->ctx, 1, &area));
+    selection->area = area;
     OST_TRY(spread_on(scene, selection->load, none, z, centre, force));
     for (size_t n = 0; n < owned; n++) {
         selection->share[n] /= area;

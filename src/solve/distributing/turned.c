@@ -68,7 +68,7 @@ void ost_turned_couplings_begin(const OstProblem *problem, double t, double *mul
         for (int k = 0; k < OST_MOST_GIVEN && scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++) {
             double sum = 0.0;
             for (int f = 0; f < ost_problem_functions(problem); f++)
-                sum += ost_problem_factor(problem, f, t) * scene->drive[6 * (f * scene->c->load_count + i) + k];
+                sum += ost_problem_factor(problem, f, t) * ost_scene_drive(scene, f, i)->of_point[k];
             if (scene->c->loads[i].moved[k])
                 *multipliers++ = sum;
         }
@@ -82,7 +82,7 @@ static OstStatus open_couplings(OstTurnedCouplings *all)
     OST_THEN(OST_NEW(scene->ctx, &all->coupling, (size_t)scene->c->load_count));
     status = ost_agree(scene->ctx, status);
     memset(scene->drive, 0,
-           6 * (size_t)(scene->c->load_count * ost_problem_functions(all->problem)) * sizeof *scene->drive);
+           (size_t)(scene->c->load_count * ost_problem_functions(all->problem)) * sizeof *scene->drive);
     for (int i = 0; i < scene->c->load_count && status == OST_SUCCESS; i++) {
         if (scene->c->loads[i].kind != OST_LOAD_DISTRIBUTING)
             continue;
@@ -364,6 +364,16 @@ OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *all, OstGlob
     return ost_agree(all->problem->ctx, status);
 }
 
+/* The traction that the forces h of a selection are: weights are integrals of N over the area, and of N (X - c). */
+static void find_traction(const OstMovedSelection *selection, const double *h, double factor, OstDrive *drive)
+{
+    for (int i = 0; i < 3; i++)
+        drive->mean[i] = h[i] / (factor * selection->area);
+    for (int s = 3; s < selection->sums; s++)
+        for (int j = 0; j < 3; j++)
+            drive->gradient[3 * (s % 3) + j] += h[s] * selection->axis[3 * (s / 3 - 1) + j] / factor;
+}
+
 OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *all, double t)
 {
     OstProblem *problem = all->problem;
@@ -378,5 +388,9 @@ OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *all, double t)
     ost_turned_couplings_add(all, driven);
     for (size_t i = 0; i < owned; i++)
         driven[i] /= factor != 0.0 ? factor : 1.0;
+    for (int c = 0, first = 0; c < all->count && factor != 0.0; first += all->coupling[c++].sums) {
+        const int load = (int)(all->coupling[c].load - problem->scene->c->loads);
+        find_traction(&all->coupling[c], all->h + first, factor, ost_scene_drive(problem->scene, function, load));
+    }
     return OST_SUCCESS;
 }
