@@ -125,6 +125,8 @@ typedef struct Writer {
 static void put(Writer *writer, size_t size, const void *bytes)
 {
     errno = 0;
+    if (size == 0)
+        return;
     if (!writer->failed && fwrite(bytes, 1, size, writer->file) != size)
         writer->failed = errno ? errno : EIO;
     writer->hash = ost_hash(writer->hash, size, bytes);
@@ -348,6 +350,8 @@ static OstStatus get_reports(OstPath *path, const char *name, FILE *file)
                        {size_of_multipliers(path), multipliers_of(path, path->state.displacement)},
                        {size_of_multipliers(path), multipliers_of(path, path->state.slope)}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
+        if (items[i].size == 0)
+            continue;
         OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, items[i].size, items[i].bytes) : OST_SUCCESS));
         OST_TRY(ost_broadcast(ctx, items[i].size, items[i].bytes));
     }

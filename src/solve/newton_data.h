@@ -84,6 +84,7 @@ struct OstNewton {
     int most_descents; /* iterations with the definite stiffness that a search for rest may take */
     int leaving;       /* is a state that is not stable being left, by the definite stiffness? */
     int step_iterations; /* Newton iterations in this load step */
+    int leads_to_pose;   /* does the first load step go straight to a pose that is known? */
 };
 
 /* Is there an energy whose derivative the residual is? */

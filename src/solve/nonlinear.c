@@ -159,6 +159,8 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
+    if (status == OST_SUCCESS && has_pose(analysis))
+        ost_newton_go_straight(newton);
     if (status == OST_SUCCESS && result->answer.known && ost_reactions_allow_stop(problem))
         ost_newton_stop_at(newton, ost_stop_share(problem, analysis->options.algebraic_fraction, &result->answer),
                            &result->answer, result->stress_surplus || result->node_stress_surplus);
