@@ -80,6 +80,7 @@ struct OstNewton {
     double beyond_change;
     int without_skew;  /* is the skew part of the stiffness left out, to probe the rest? */
     int indefinite;    /* was the exact stiffness found indefinite in this load step? */
+    int no_factors;    /* have the next ones not fitted into memory? */
     int by_factors;    /* of couplings: does the solver have factors of the exact stiffness, though it be indefinite? */
     int most_descents; /* iterations with the definite stiffness that a search for rest may take */
     int leaving;       /* is a state that is not stable being left, by the definite stiffness? */

@@ -67,7 +67,7 @@ static int factors_pay(const OstNewton *newton)
 {
     OstSolverFacts facts = newton->stiffness->facts;
     const OstMethod asked = newton->options.method;
-    if (!newton->couplings || !newton->problem->conservative ||
+    if (!newton->couplings || !newton->problem->conservative || newton->no_factors ||
         (asked != OST_METHOD_AUTO && asked != OST_METHOD_DIRECT))
         return 0;
     if (!(facts.thickness > 0.0))
@@ -90,6 +90,7 @@ static OstStatus update_unsymmetric(OstNewton *newton)
                                              &newton->by_factors));
         if (newton->by_factors)
             return OST_SUCCESS;
+        newton->no_factors = newton->indefinite = 1; /* it may be, and GMRES does not tell */
     }
     if (newton->rebuild) {
         OST_TRY(fill(newton, 1));

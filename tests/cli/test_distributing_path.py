@@ -77,6 +77,14 @@ for theory, angle in fewer((("off", -0.05), ("on", -1.5))):
         expected, _ = solve(single)
         check(not differ(step, expected[0], 1e-6), f"large_rotation {theory}: {differ(step, expected[0], 1e-6)}")
 
+# --- where factors of the stiffness do not fit, GMRES finds the same, and the program says that it does not know whether that is stable ---
+folder = new_folder()
+write(folder, "strip.yaml", STRIP + HALF + "solver: {factor_memory: 0}\n")
+finished = run("solve", "strip.yaml", "-q", "--json", "-", folder=folder)
+check(finished.exit_code == 0, finished.errors)
+report = json.loads(finished.output)
+check(report["large_rotation"]["stability_unknown"] and abs(report["watched"]["moment"]["value"] / steps[-1]["moment"] - 1) < 1e-7, report["watched"])
+
 # --- the estimated error of a strip whose end a coupling turns falls as the mesh is refined: the estimate knows the coupling's forces ---
 relative = []
 for cells in fewer((6, 12)):
