@@ -217,13 +217,14 @@ static OstStatus add_surface_load(const OstScene *scene, const OstComplement *co
 }
 
 /* Forces on vertices have no part here. */
-static OstStatus add_moment(const OstScene *scene, const OstComplement *complement, const OstLoad *load, double *force)
+static OstStatus add_moment(const OstScene *scene, const OstComplement *complement, const OstLoad *load, int function,
+                            double *force)
 {
     OstSpread spread;
     const Traction traction = {.spread = &spread};
     OstLocal count = 0, *faces = NULL;
     int on_faces = 0, nodes_per_face = 3;
-    OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &faces, &spread);
+    OstStatus status = ost_scene_spread(scene, load, function, &on_faces, &count, &nodes_per_face, &faces, &spread);
     if (status == OST_SUCCESS && on_faces)
         status = load_faces(complement, count, nodes_per_face, faces, &traction, force);
     OST_FREE(faces);
@@ -231,7 +232,7 @@ static OstStatus add_moment(const OstScene *scene, const OstComplement *compleme
 }
 
 /* A table has forces once there is a load that acts on the functions. */
-static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, double **force)
+static OstStatus add_load(const OstScene *scene, const OstComplement *complement, int i, int function, double **force)
 {
     const OstLoad *load = &scene->c->loads[i];
     const int in_volume = ost_load_in_volume(load->kind), on_surface = scene->load_effect[i] == OST_EFFECT_SURFACE_LOAD;
@@ -242,7 +243,7 @@ static OstStatus add_load(const OstScene *scene, const OstComplement *complement
     OST_TRY(ost_agree(scene->ctx, status));
     status = in_volume    ? add_body_load(scene, complement, load, *force)
              : on_surface ? add_surface_load(scene, complement, load, *force)
-                          : add_moment(scene, complement, load, *force);
+                          : add_moment(scene, complement, load, function, *force);
     return ost_agree(scene->ctx, status);
 }
 
@@ -265,8 +266,9 @@ OstStatus ost_surplus_loads_create(const OstProblem *problem, const OstComplemen
     *loads = (OstSurplusLoads){.count = ost_problem_functions(problem)};
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &loads->force, loads->count)));
     for (int i = 0; i < scene->c->load_count; i++)
-        if (ost_effect_on(problem->effects, scene->load_effect[i]))
-            OST_TRY(add_load(scene, complement, i, &loads->force[scene->c->loads[i].table]));
+        for (int k = 0; k < loads->count && ost_effect_on(problem->effects, scene->load_effect[i]); k++)
+            if (scene->c->loads[i].table == k || scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING)
+                OST_TRY(add_load(scene, complement, i, k, &loads->force[k]));
     for (int i = 0; i < scene->c->spring_count; i++)
         if (scene->c->springs[i].kind == OST_SPRING_FOUNDATION &&
             ost_effect_on(problem->effects, OST_EFFECT_FOUNDATION))

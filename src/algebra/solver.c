@@ -244,6 +244,7 @@ OstStatus ost_solver_update(OstSolver *solver, OstSolverUpdate how)
     const int may_stay = solver->method >= OST_METHOD_METRIC && solver->method <= OST_METHOD_TWO_LEVEL;
     if (how == OST_UPDATE_KEEP && may_stay) {
         solver->aged = 1;
+        ost_saddle_factors_destroy(&solver->whole);
         return OST_SUCCESS;
     }
     destroy_strategy(solver);

@@ -55,6 +55,11 @@ OstStatus ost_solver_solve_mixed(OstSolver *solver, const OstSaddle *saddle, con
  * (`coupling` NULL), with A as it now is. *known: 0 if the factors that tell do not fit into memory. */
 OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known);
 
+/* Collective. Factors A as it now is, with the mixed form's second equation where `coupling` is not NULL, though it be
+ * indefinite: until the next update, ost_solver_solve_unsymmetric is preconditioned by these. *found: 0 if they do not
+ * fit into memory. */
+OstStatus ost_solver_factor_indefinite(OstSolver *solver, const OstCoupling *coupling, int *found);
+
 /* Collective. Solves (A + S) u = f from u = 0 by GMRES (ost_gmres_solve), preconditioned by the strategy that the
  * solver was last built with, of whatever matrix that was: A may be indefinite, S unsymmetric. The report has method,
  * iterations and ||M^-1 r|| / ||M^-1 f||, which may be larger than `relative` after many iterations. `saddle`: what

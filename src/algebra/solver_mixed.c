@@ -50,11 +50,17 @@ OstStatus ost_solver_factor_direct(OstSolver *solver, double memory)
     return solver->whole && ost_saddle_factors_negative(solver->whole) == 0 ? OST_SUCCESS : status;
 }
 
-OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known)
+OstStatus ost_solver_factor_indefinite(OstSolver *solver, const OstCoupling *coupling, int *found)
 {
     ost_saddle_factors_destroy(&solver->whole); /* of other values, perhaps */
     OST_TRY(factor_both(solver, coupling));
-    *known = solver->whole != NULL;
+    *found = solver->whole != NULL;
+    return OST_SUCCESS;
+}
+
+OstStatus ost_solver_count_negative(OstSolver *solver, const OstCoupling *coupling, OstGlobal *negative, int *known)
+{
+    OST_TRY(ost_solver_factor_indefinite(solver, coupling, known));
     *negative = *known ? ost_saddle_factors_negative(solver->whole) : 0;
     if (!solver->direct || !coupling)
         ost_saddle_factors_destroy(&solver->whole);
@@ -115,6 +121,11 @@ int ost_solver_mixed_is_poor(const OstSolver *solver)
     return !solver->whole && solver->scale > poor;
 }
 
+static OstStatus apply_factors(void *data, const double *r, double *z)
+{
+    return ost_saddle_factors_solve(data, r, NULL, z, NULL);
+}
+
 static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, const OstFurtherPart *further,
                                    double relative, const double *f, double *u, OstSolveReport *report)
 {
@@ -127,9 +138,13 @@ static OstStatus solve_unsymmetric(OstSolver *solver, const OstSaddle *saddle, c
     if (!ost_solver_has_preconditioner(solver) && !solver->whole)
         return OST_RAISE(solver->ctx, OST_NOT_CONVERGED, "no strategy of this solver is left");
     ost_solver_system(solver, &system, &preconditioner);
-    report->method = solver->method;
+    if (solver->whole && !saddle) {
+        system = (OstCgSystem){.matrix = solver->matrix};
+        preconditioner = (OstPreconditioner){.data = solver->whole, .apply = apply_factors};
+    }
+    report->method = solver->whole ? OST_METHOD_DIRECT : solver->method;
     snprintf(report->engine, sizeof report->engine, "AztecOO GMRES, %s",
-             solver->method == OST_METHOD_DIRECT ? "MUMPS factors" : "ML cycle");
+             report->method == OST_METHOD_DIRECT ? "MUMPS factors" : "ML cycle");
     if (saddle)
         return ost_saddle_solve_unsymmetric(&system, &preconditioner, solver->whole, saddle, further, relative, f, u,
                                             iterations, residual);

@@ -23,7 +23,7 @@ void ost_spread_at(const OstSpread *spread, const double place[3], double value[
     const double arm[3] = {place[0] - spread->centre[0], place[1] - spread->centre[1], place[2] - spread->centre[2]};
     ost_cross3(spread->turn, arm, value);
     for (int i = 0; i < 3; i++)
-        value[i] += spread->mean[i];
+        value[i] += spread->mean[i] + ost_dot3(spread->gradient + (size_t)i * 3, arm);
 }
 
 /* What the forces act on: faces, or vertices if nodes_per_item is 1. */
@@ -112,6 +112,7 @@ static OstStatus spread_over(const Carrier *on, const OstResultant *resultant, O
     static const double origin[3] = {0.0};
     OstContext *ctx = on->mesh->ctx;
     double sums[SUMS], arm[3], moment[3] = {0.0};
+    *spread = (OstSpread){.mean = {0.0}};
     OST_TRY(sum_up(on, origin, sums));
     if (!(sums[WEIGHT] > 0.0))
         return OST_RAISE(ctx, OST_INVALID_INPUT, "a moment is to act on a selection that holds nothing");

@@ -16,9 +16,10 @@ typedef struct OstResultant {
 
 typedef struct OstSpread {
     double mean[3], turn[3], centre[3]; /* a, b, c: a traction, or a force on each vertex */
+    double gradient[9]; /* G: of forces that are not the least, as where the selection has turned; else 0 */
 } OstSpread;
 
-/* Local. a + b × (x - c) */
+/* Local. a + b × (x - c) + G (x - c) */
 void ost_spread_at(const OstSpread *spread, const double place[3], double value[3]);
 
 /* Collective. Faces and vertices are listed, and forces added, as assembly/loads.h says. Raises OST_INVALID_INPUT where

@@ -89,13 +89,11 @@ static OstStatus check_links(const OstYaml *yaml, const OstCase *c)
 static OstStatus check_distributing(const OstYaml *yaml, const OstCase *c)
 {
     for (int i = 0; i < c->load_count; i++) {
-        const char *without = c->path_steps > 0 ? "path" : c->free_body ? "constraints: free_body" : NULL;
-        if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && without)
-            return OST_RAISE(
-                yaml->ctx, OST_INVALID_INPUT,
-                "%s:%d: a distributing coupling can be moved neither along a path, as a 'rigid' face can, nor "
-                "on a free body; leave out '%s'",
-                yaml->path, c->loads[i].line, without);
+        if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && c->free_body)
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: a distributing coupling cannot be moved on a free body, as what moves it is held "
+                             "by supports; leave out 'constraints: free_body'",
+                             yaml->path, c->loads[i].line);
         const OstWatch *asked = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING && asked && asked->kind != OST_WATCH_STRAIN_ENERGY)
             return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,

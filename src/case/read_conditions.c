@@ -247,8 +247,6 @@ static OstStatus check_keys(const OstYaml *yaml, const OstYamlNode *node, const 
     if (kind == OST_LOAD_MOMENT && keys[AT].value)
         return ost_yaml_raise(yaml, keys[AT].value,
                               "a moment is the same about every point: 'at' belongs to total_force; leave it out");
-    if (kind == OST_LOAD_DISTRIBUTING && keys[TIME].value)
-        return ost_yaml_raise(yaml, keys[TIME].value, "a given motion of a distributing coupling has no time table");
     if (kind != OST_LOAD_TOTAL_FORCE && keys[AT].value)
         return ost_yaml_raise(yaml, keys[AT].value, "'at' belongs to total_force, not to '%s'", keys[kind].name);
     return OST_SUCCESS;

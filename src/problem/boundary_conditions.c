@@ -299,36 +299,44 @@ static OstStatus add_surface_load(const OstScene *scene, const OstLoad *load, do
     return status;
 }
 
-static OstResultant resultant_of(const OstScene *scene, const OstLoad *load)
+static OstResultant resultant_of(const OstScene *scene, const OstLoad *load, int function)
 {
     OstResultant resultant = {.acts_at = load->acts_at};
     if (load->kind == OST_LOAD_DISTRIBUTING) {
-        const double *drive = scene->drive + 6 * (load - scene->c->loads);
-        memcpy(resultant.force, drive, sizeof resultant.force);
-        memcpy(resultant.moment, drive + 3, sizeof resultant.moment);
+        const OstDrive *drive = ost_scene_drive(scene, function, (int)(load - scene->c->loads));
+        memcpy(resultant.force, drive->of_point, sizeof resultant.force);
+        memcpy(resultant.moment, drive->of_point + 3, sizeof resultant.moment);
     } else
         memcpy(load->kind == OST_LOAD_MOMENT ? resultant.moment : resultant.force, load->vector, sizeof load->vector);
     memcpy(resultant.at, load->at, sizeof load->at);
     return resultant;
 }
 
-OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
+OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int function, int *on_faces, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces, OstSpread *spread)
 {
-    const OstResultant resultant = resultant_of(scene, load);
+    const OstResultant resultant = resultant_of(scene, load, function);
     *on_faces = 0;
     if (load->share == OST_SHARE_VERTICES)
         return OST_SUCCESS;
     OST_TRY(ost_select_faces(scene->c, scene->mesh, &load->on, count, nodes_per_face, faces));
     *on_faces = *count > 0 || load->share == OST_SHARE_FACES;
     OST_TRY(ost_max_ints(scene->ctx, 1, on_faces));
-    return *on_faces ? ost_spread_over_faces(scene->mesh, *count, *faces, *nodes_per_face, &resultant, spread)
-                     : OST_SUCCESS;
+    if (!*on_faces)
+        return OST_SUCCESS;
+    OST_TRY(ost_spread_over_faces(scene->mesh, *count, *faces, *nodes_per_face, &resultant, spread));
+    if (load->kind != OST_LOAD_DISTRIBUTING)
+        return OST_SUCCESS;
+    const OstDrive *drive = ost_scene_drive(scene, function, (int)(load - scene->c->loads));
+    for (int i = 0; i < 3; i++)
+        spread->mean[i] += drive->mean[i];
+    memcpy(spread->gradient, drive->gradient, sizeof spread->gradient);
+    return OST_SUCCESS;
 }
 
 static OstStatus add_moment_on_vertices(const OstScene *scene, const OstLoad *load, double *force)
 {
-    const OstResultant resultant = resultant_of(scene, load);
+    const OstResultant resultant = resultant_of(scene, load, 0);
     OstSpread spread;
     OstLocal count = 0;
     OstLocal *nodes = NULL;
@@ -346,7 +354,7 @@ static OstStatus add_moment(const OstScene *scene, const OstLoad *load, double *
     OstLocal *faces = NULL;
     int on_faces = 0, nodes_per_face = 3;
     OstSpread spread;
-    const OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &faces, &spread);
+    const OstStatus status = ost_scene_spread(scene, load, 0, &on_faces, &count, &nodes_per_face, &faces, &spread);
     if (status == OST_SUCCESS && on_faces)
         ost_load_spread_on_faces(scene->mesh, count, faces, nodes_per_face, &spread, force);
     OST_FREE(faces);

@@ -20,15 +20,16 @@ OstStatus ost_scene_supports(const OstScene *scene, int table, OstSupports **sup
 OstStatus ost_scene_loads(const OstScene *scene, int table, const OstSupports *supports, double *force,
                           OstFollower **follower);
 
-/* Collective. Adds one load likewise; of a distributing coupling, the force and moment that the scene has for it. */
+/* Collective. Adds one load likewise; of a distributing coupling, the force and moment that the scene has for it in
+ * function 0. */
 OstStatus ost_scene_load(const OstScene *scene, int number, double *force);
 
 /* Local. How the body turns, of a centrifugal load. */
 OstSpin ost_load_spin(const OstLoad *load);
 
-/* Collective. Of a load with a moment: the faces on which it acts, the caller's to free, and the traction there. Where
- * it acts on vertices (*on_faces is 0), neither. */
-OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int *on_faces, OstLocal *count,
+/* Collective. Of a load with a moment: the faces on which it acts, the caller's to free, and the traction there; of a
+ * distributing coupling, that of one function of time. Where it acts on vertices (*on_faces is 0), neither. */
+OstStatus ost_scene_spread(const OstScene *scene, const OstLoad *load, int function, int *on_faces, OstLocal *count,
                            int *nodes_per_face, OstLocal **faces, OstSpread *spread);
 
 #endif

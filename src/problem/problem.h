@@ -24,8 +24,8 @@ struct OstProblem {
     const OstEffects *effects; /* the scene's; NULL if there is no scene */
     OstSupports *supports;     /* with the displacements prescribed at t = 1 */
     double *force;             /* 3 × owned_nodes: the load at t = 1 */
-    double *driven;            /* likewise: of it, that which moves distributing couplings; NULL before it is known */
-    int timed_count;           /* time tables of further loads and displacements (timed.c) */
+    double *driven;  /* as many for each function: what moves distributing couplings; NULL before it is known */
+    int timed_count; /* time tables of further loads and displacements (timed.c) */
     OstTimed *timed;
     OstFollower *follower; /* pressures that follow the surface, of all functions; NULL: there are none */
     double *lever;         /* 9 for each function and rigid face: of forces at a point of it (turning.c), or NULL */

@@ -275,7 +275,7 @@ static OstStatus make_drive(OstScene *scene)
     OstStatus status = OST_SUCCESS;
     for (int i = 0; i < c->load_count && !scene->drive && status == OST_SUCCESS; i++)
         if (c->loads[i].kind == OST_LOAD_DISTRIBUTING)
-            status = OST_NEW(c->ctx, &scene->drive, 6 * (size_t)c->load_count);
+            status = OST_NEW(c->ctx, &scene->drive, (size_t)c->load_count * (size_t)(1 + c->table_count));
     return ost_agree(c->ctx, status);
 }
 

@@ -56,25 +56,26 @@ double ost_problem_eigen_share(const OstProblem *problem, double t)
     return ost_problem_factor(problem, problem->eigen_function, t);
 }
 
-static const double *dead_load(const OstProblem *problem, int function)
+/* With what moves distributing couplings. */
+static double dead_load(const OstProblem *problem, int function, size_t i)
 {
-    return function == 0 ? problem->force : problem->timed[function - 1].force;
+    const double force = function == 0 ? problem->force[i] : problem->timed[function - 1].force[i];
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    return problem->driven ? force + problem->driven[(size_t)function * owned + i] : force;
 }
 
 void ost_problem_add_load(const OstProblem *problem, int function, double factor, const double *u, double *force)
 {
-    const double *dead = dead_load(problem, function);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        force[i] += factor * dead[i];
+        force[i] += factor * dead_load(problem, function, i);
     ost_follower_force(problem->follower, function, factor, u, force);
 }
 
 double ost_problem_work(const OstProblem *problem, int function, double factor, const double *u)
 {
-    const double *dead = dead_load(problem, function);
     double work = ost_follower_work(problem->follower, function, factor, u);
     for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        work += factor * dead[i] * u[i];
+        work += factor * dead_load(problem, function, i) * u[i];
     return work;
 }
 

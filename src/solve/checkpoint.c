@@ -6,6 +6,7 @@
 #include "core/parallel/gather.h"
 #include "core/write_aside.h"
 #include "problem/identity.h"
+#include "solve/distributing/turned.h"
 #include "solve/path_data.h"
 
 #include <errno.h>
@@ -13,8 +14,8 @@
 #include <string.h>
 
 /* The file: a header, the steps done, what the answers are made of, and the hash of all that. The answers stand node by
- * node with their labels, so that any number of ranks can take them. In the byte order of the machine: only the program
- * that wrote it, on such a machine, takes the same bits from it. */
+ * node with their labels, so that any number of ranks can take them; multipliers of moved couplings before them. In the
+ * byte order of the machine: only the program that wrote it, on such a machine, takes the same bits from it. */
 typedef struct Header {
     char magic[16];
     OstProblemIdentity problem;
@@ -26,7 +27,7 @@ typedef struct Header {
     int32_t nonlinear; /* then a node has the state's displacement and slope */
 } Header;
 
-enum { VERSION = 3, BLOCK = 65536, NODES = 4096 /* in a message */ };
+enum { VERSION = 4, BLOCK = 65536, NODES = 4096 /* in a message */ };
 static const char magic[16] = "orthostat path";
 
 /* One number after the other, as a struct has gaps. */
@@ -124,6 +125,8 @@ typedef struct Writer {
 static void put(Writer *writer, size_t size, const void *bytes)
 {
     errno = 0;
+    if (size == 0)
+        return;
     if (!writer->failed && fwrite(bytes, 1, size, writer->file) != size)
         writer->failed = errno ? errno : EIO;
     writer->hash = ost_hash(writer->hash, size, bytes);
@@ -189,6 +192,17 @@ static OstStatus put_arrays(const OstPath *path, Writer *writer)
     return status;
 }
 
+/* Multipliers of moved couplings, at the end of a state's displacement and of its slope: how many bytes, and where. */
+static size_t size_of_multipliers(const OstPath *path)
+{
+    return path->nonlinear ? (size_t)ost_turned_couplings_count(path->problem) * sizeof(double) : 0;
+}
+
+static double *multipliers_of(const OstPath *path, double *array)
+{
+    return array ? array + ost_newton_state_size(path->problem) - ost_turned_couplings_count(path->problem) : NULL;
+}
+
 /* The rest that is the same on all ranks. */
 static void put_reports(const OstPath *path, Writer *writer)
 {
@@ -198,6 +212,8 @@ static void put_reports(const OstPath *path, Writer *writer)
     put(writer, sizeof linear->solve, &linear->solve);
     if (!path->nonlinear)
         put(writer, (size_t)linear->count * sizeof *linear->norm, linear->norm);
+    put(writer, size_of_multipliers(path), multipliers_of(path, path->state.displacement));
+    put(writer, size_of_multipliers(path), multipliers_of(path, path->state.slope));
 }
 
 static OstStatus open_writer(OstContext *ctx, const OstAside *aside, Writer *writer)
@@ -330,8 +346,12 @@ static OstStatus get_reports(OstPath *path, const char *name, FILE *file)
     } const items[] = {{(size_t)path->done * sizeof *path->steps, path->steps},
                        {sizeof path->judged, &path->judged},
                        {sizeof linear->solve, &linear->solve},
-                       {(size_t)linear->count * sizeof *linear->norm, linear->norm}};
+                       {(size_t)linear->count * sizeof *linear->norm, linear->norm},
+                       {size_of_multipliers(path), multipliers_of(path, path->state.displacement)},
+                       {size_of_multipliers(path), multipliers_of(path, path->state.slope)}};
     for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
+        if (items[i].size == 0)
+            continue;
         OST_TRY(ost_agree(ctx, file ? get(ctx, name, file, items[i].size, items[i].bytes) : OST_SUCCESS));
         OST_TRY(ost_broadcast(ctx, items[i].size, items[i].bytes));
     }

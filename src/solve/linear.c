@@ -330,7 +330,7 @@ static OstStatus stop_early(const OstAnalysis *analysis, OstResult *result, OstE
 static OstStatus drive(OstAnalysis *analysis)
 {
     OstLinear *linear = analysis->work;
-    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, linear->rhs, linear->volume));
+    OST_TRY(ost_distributing_find(analysis->problem, linear->stiffness.solver, 0, linear->rhs, linear->volume));
     OST_TRY(ost_problem_right_hand_side(analysis->problem, 1.0, linear->rhs));
     return ost_analysis_take_loading(analysis);
 }
@@ -359,31 +359,43 @@ static OstStatus solve(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     return solved;
 }
 
-OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm)
+OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before)
 {
     const OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
-    double square = 0.0;
     OST_TRY(ost_problem_function_right_hand_side(problem, function, linear->rhs));
-    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
-        square += linear->rhs[i] * linear->rhs[i];
-    OST_TRY(ost_sum(analysis->ctx, 1, &square));
-    *norm = sqrt(square);
     if (linear->volume) {
-        const OstSaddle saddle = {problem->coupling, linear->volume, linear->pressure};
         OST_TRY(ost_problem_function_volume(problem, function, linear->volume));
         OST_TRY(ost_guard_volume(problem, linear->volume, &linear->enclosed, before));
-        OST_TRY(ost_saddle_size(problem->system->matrix, &saddle, linear->rhs, norm));
     }
     return ost_guard_load(problem, function, linear->rhs, before);
 }
 
-OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement)
+static OstStatus measure_rhs(const OstProblem *problem, const OstLinear *linear, double *norm)
 {
-    const OstProblem *problem = analysis->problem;
+    const OstSaddle saddle = {problem->coupling, linear->volume, linear->pressure};
+    double square = 0.0;
+    if (linear->volume)
+        return ost_saddle_size(problem->system->matrix, &saddle, linear->rhs, norm);
+    for (size_t i = 0; i < 3 * (size_t)problem->system->matrix->rows; i++)
+        square += linear->rhs[i] * linear->rhs[i];
+    OST_TRY(ost_sum(problem->ctx, 1, &square));
+    *norm = sqrt(square);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *norm,
+                           double *displacement)
+{
+    OstProblem *problem = analysis->problem;
     OstLinear *linear = analysis->work;
     if (!linear->stiffness.solver)
         OST_TRY(ost_stiffness_solver_make(&linear->stiffness));
+    if (ost_distributing_any(problem)) {
+        OST_TRY(ost_distributing_find(problem, linear->stiffness.solver, function, linear->rhs, linear->volume));
+        OST_TRY(ost_problem_function_right_hand_side(problem, function, linear->rhs));
+    }
+    OST_TRY(measure_rhs(problem, linear, norm));
     const OstStatus solved = solve_equations(analysis, report);
     if (solved != OST_SUCCESS && solved != OST_NOT_CONVERGED)
         return solved;

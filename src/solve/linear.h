@@ -18,12 +18,14 @@ typedef struct OstLinear {
 
 /* Solves with one function of time at a time (problem/problem.h), on a prepared linear analysis. */
 
-/* Collective. Takes the function's load for the next solve, checks it, and tells the norm of its right-hand side. */
-OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before, double *norm);
+/* Collective. Takes the function's load for the next solve, and checks it. */
+OstStatus ost_linear_load(OstAnalysis *analysis, int function, OstVerdict *before);
 
-/* Collective. Solves for the load taken: the displacement (3 × node_count) at factor 1, and behind it the pressures of
- * a mixed form. OST_NOT_CONVERGED: that where the solver stopped. */
-OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *displacement);
+/* Collective. Solves for the load taken, and for what moves distributing couplings: the displacement (3 × node_count)
+ * at factor 1, and behind it the pressures of a mixed form; the norm of the right-hand side. OST_NOT_CONVERGED: that
+ * where the solver stopped. */
+OstStatus ost_linear_solve(OstAnalysis *analysis, int function, OstSolveReport *report, double *norm,
+                           double *displacement);
 
 /* Collective. The work of the right-hand side at t on the unknowns of a displacement. */
 OstStatus ost_linear_work(const OstAnalysis *analysis, double t, const double *displacement, double *work);

@@ -39,6 +39,9 @@ void ost_newton_destroy(OstNewton **newton);
  * search goes on. Without it the residual alone ends a search. */
 void ost_newton_stop_at(OstNewton *newton, double fraction, const OstAnswerError *answer, int watches_stress);
 
+/* Local. The first prediction goes straight on, to a pose that is known. */
+void ost_newton_go_straight(OstNewton *newton);
+
 /* Collective. Takes a state on to load factor `to` > state->t, in as many load steps as it needs. What is done depends
  * on the state alone and not on what was done before: away from u = 0 every call begins with a new hierarchy. Returns
  * OST_NOT_CONVERGED with the reason, the place and the load factor reached where the load cannot be followed; the state

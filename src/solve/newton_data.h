@@ -78,11 +78,14 @@ struct OstNewton {
     double *beyond;   /* count: a state at rest, found by a jump that a shorter load step may yet avoid; or NULL */
     double beyond_t;  /* its load factor */
     double beyond_change;
-    int without_skew;    /* is the skew part of the stiffness left out, to probe the rest? */
-    int indefinite;      /* was the exact stiffness found indefinite in this load step? */
-    int most_descents;   /* iterations with the definite stiffness that a search for rest may take */
-    int leaving;         /* is a state that is not stable being left, by the definite stiffness? */
+    int without_skew;  /* is the skew part of the stiffness left out, to probe the rest? */
+    int indefinite;    /* was the exact stiffness found indefinite in this load step? */
+    int no_factors;    /* have the next ones not fitted into memory? */
+    int by_factors;    /* of couplings: does the solver have factors of the exact stiffness, though it be indefinite? */
+    int most_descents; /* iterations with the definite stiffness that a search for rest may take */
+    int leaving;       /* is a state that is not stable being left, by the definite stiffness? */
     int step_iterations; /* Newton iterations in this load step */
+    int leads_to_pose;   /* does the first load step go straight to a pose that is known? */
 };
 
 /* Is there an energy whose derivative the residual is? */

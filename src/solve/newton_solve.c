@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "algebra/matrix/vector.h"
+#include "algebra/solver_seconds.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/small.h"
@@ -60,9 +61,37 @@ static OstStatus update(OstNewton *newton, int definite)
     return OST_SUCCESS;
 }
 
+/* What moves couplings takes a solve for each of their sums: are factors of the exact stiffness made for these? Of
+ * linear tets nobody knows how thick the body is: no thicker than a cube. */
+static int factors_pay(const OstNewton *newton)
+{
+    OstSolverFacts facts = newton->stiffness->facts;
+    const OstMethod asked = newton->options.method;
+    if (!newton->couplings || !newton->problem->conservative || newton->no_factors ||
+        (asked != OST_METHOD_AUTO && asked != OST_METHOD_DIRECT))
+        return 0;
+    if (!(facts.thickness > 0.0))
+        facts.thickness = cbrt((double)facts.unknowns / 3.0);
+    return asked == OST_METHOD_DIRECT || newton->method == OST_METHOD_DIRECT ||
+           ost_solver_factor_seconds(&facts) <
+               (1.0 + ost_turned_couplings_sums(newton->couplings)) * ost_solver_multigrid_seconds(&facts);
+}
+
 /* The same where GMRES solves: any factors or hierarchy of a definite stiffness serve as its preconditioner. */
 static OstStatus update_unsymmetric(OstNewton *newton)
 {
+    newton->by_factors = 0;
+    if (factors_pay(newton)) {
+        OST_TRY(fill(newton, 0));
+        newton->stiffness->moved = newton->rebuild = 1;
+        newton->report.setups++;
+        OST_TRY(ost_solver_factor_indefinite(newton->stiffness->solver,
+                                             ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL,
+                                             &newton->by_factors));
+        if (newton->by_factors)
+            return OST_SUCCESS;
+        newton->no_factors = newton->indefinite = 1; /* it may be, and GMRES does not tell */
+    }
     if (newton->rebuild) {
         OST_TRY(fill(newton, 1));
         newton->report.setups++;
@@ -152,7 +181,7 @@ static OstStatus solve(OstNewton *newton, int unsymmetric, double forcing, const
 /* By GMRES? Without what moved couplings hold the stiffness may be indefinite though the body is stable. */
 static int is_unsymmetric(const OstNewton *newton, int definite)
 {
-    const int held = newton->couplings && newton->indefinite;
+    const int held = newton->couplings && (newton->indefinite || factors_pay(newton));
     return (ost_newton_is_unsymmetric(newton) || held) && !definite && !newton->without_skew;
 }
 
@@ -168,11 +197,11 @@ static OstStatus attempt(OstNewton *newton, int definite, double forcing, const 
                                   .probing = !definite,
                                   .first = newton->method,
                                   .coupling = ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL});
-    newton->solve.indefinite = 0;
+    newton->solve.indefinite = newton->by_factors = 0;
     if (unsymmetric) {
         OST_TRY(update_unsymmetric(newton));
         status = solve(newton, 1, accurate, rhs);
-        if (newton->solve.relative_residual > inaccurate) {
+        if (newton->solve.relative_residual > inaccurate && !newton->by_factors) {
             newton->rebuild = 1;
             newton->method = OST_METHOD_DIRECT;
         }
@@ -182,7 +211,7 @@ static OstStatus attempt(OstNewton *newton, int definite, double forcing, const 
     }
     newton->report.linear_iterations += newton->solve.iterations;
     *again = can_go_on(status) && old && !newton->solve.indefinite;
-    if (status == OST_SUCCESS && !old)
+    if (status == OST_SUCCESS && !old && !newton->by_factors)
         newton->method = newton->solve.method;
     return status;
 }
@@ -232,7 +261,8 @@ OstStatus ost_newton_solve(OstNewton *newton, int definite, double forcing, cons
         return OST_SUCCESS;
     }
     OST_TRY(status);
-    judge_hierarchy(newton);
+    if (!newton->by_factors)
+        judge_hierarchy(newton);
     *found = 1;
     if (newton->couplings)
         OST_TRY(move_couplings(newton, definite, found));

@@ -100,6 +100,20 @@ static OstStatus probe_without_skew(OstNewton *newton)
     return status;
 }
 
+/* Estimates go on with the solver that there is: where it has factors of the exact stiffness alone, one of the definite
+ * stiffness is made. */
+static OstStatus leave_definite(OstNewton *newton)
+{
+    OstTurnedCouplings *const couplings = newton->couplings;
+    int found = 0;
+    if (!newton->by_factors)
+        return OST_SUCCESS;
+    newton->couplings = NULL;
+    const OstStatus status = ost_newton_solve(newton, 1, 1e-2, newton->residual, &found);
+    newton->couplings = couplings;
+    return status;
+}
+
 /* The stiffness without the couplings may be indefinite though the body is stable: as many of its eigenvalues may be
  * negative as they hold. A state that is not stable is not left: whole corrections would lead back. */
 static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
@@ -111,7 +125,7 @@ static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
     OST_TRY(ost_newton_evaluate(newton, newton->displacement));
     OST_TRY(smooth_forces(newton, newton->residual, &size));
     OST_TRY(ost_newton_solve_held(newton, 1e-3, newton->residual, &found));
-    if (newton->indefinite)
+    if (newton->indefinite || newton->by_factors)
         OST_TRY(ost_solver_count_negative(newton->stiffness->solver,
                                           ost_newton_is_mixed(newton) ? newton->problem->coupling : NULL, &negative,
                                           &known));
@@ -120,7 +134,7 @@ static OstStatus probe_moved(OstNewton *newton, OstRest *rest)
         OST_TRY(ost_turned_couplings_are_stable(newton->couplings, negative, &stable));
     newton->report.stability_unknown = known ? 0 : 3;
     *rest = stable || !known ? OST_REST_FOUND : OST_REST_UNSTABLE;
-    return OST_SUCCESS;
+    return leave_definite(newton);
 }
 
 OstStatus ost_newton_settle(OstNewton *newton, int most_iterations, OstRest *rest)

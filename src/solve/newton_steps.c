@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "assembly/links/levers.h"
 #include "assembly/links/rigid_faces.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -6,6 +7,7 @@
 #include "core/small.h"
 #include "guard/linearity.h"
 #include "solve/linear.h"
+#include "solve/motion/motion.h"
 #include "solve/newton_data.h"
 
 #include <math.h>
@@ -166,6 +168,11 @@ void ost_newton_stop_at(OstNewton *newton, double fraction, const OstAnswerError
     newton->watches_stress = watches_stress;
 }
 
+void ost_newton_go_straight(OstNewton *newton)
+{
+    newton->leads_to_pose = 1;
+}
+
 /* Puts what is prescribed at the load factor into a displacement, ghosts included. */
 static OstStatus prescribe(OstNewton *newton, double *displacement)
 {
@@ -245,12 +252,24 @@ static int jumps_by_tangent(const OstNewton *newton)
     return ost_newton_is_unsymmetric(newton) || ost_newton_is_saddle(newton);
 }
 
+/* Where a state leads: the body turns on as a whole, and goes straight on beside that. */
+static OstStatus predict(const OstNewton *newton, const OstNewtonState *state, double step, double *whole, double *to)
+{
+    OST_TRY(ost_newton_move(newton, state->displacement, state->slope, step, to));
+    if (newton->leads_to_pose)
+        return OST_SUCCESS;
+    OST_TRY(ost_motion_predict(newton->problem->mesh, state->displacement, state->slope, step, whole, to));
+    OST_TRY(ost_rigid_faces_move(newton->problem->supports->links, state->displacement, state->slope, step, to));
+    return ost_levers_put(newton->problem->supports->links, to);
+}
+
 /* Is the state found farther from the predicted one than that was from the last? */
-static OstStatus find_jump(const OstNewton *newton, const OstNewtonState *state, double step, int *jumps)
+static OstStatus find_jump(OstNewton *newton, const OstNewtonState *state, double step, int *jumps)
 {
     double sums[3] = {0.0};
+    OST_TRY(predict(newton, state, step, NULL, newton->candidate));
     for (size_t i = 0; i < 3 * (size_t)newton->problem->mesh->owned_nodes; i++) {
-        const double predicted = step * state->slope[i];
+        const double predicted = newton->candidate[i] - state->displacement[i];
         const double missed = newton->displacement[i] - state->displacement[i] - predicted;
         sums[0] += missed * missed;
         sums[1] += predicted * predicted;
@@ -310,7 +329,7 @@ static OstStatus try_step(OstNewton *newton, const OstNewtonState *state, double
     OST_TRY(load_to(newton, state, t));
     newton->moved = 1;
     memcpy(newton->from, state->displacement, newton->count * sizeof(double));
-    OST_TRY(ost_newton_move(newton, state->displacement, state->slope, step, newton->displacement));
+    OST_TRY(predict(newton, state, step, newton->from, newton->displacement));
     OST_TRY(prescribe(newton, newton->displacement));
     return ost_newton_find_rest(newton, most_iterations, rest);
 }
@@ -392,6 +411,8 @@ static OstStatus accept(OstNewton *newton, const Attempt *attempt, double to, Os
     const size_t count = newton->count;
     for (size_t i = 0; i < count; i++)
         state->slope[i] = (newton->displacement[i] - state->displacement[i]) / step;
+    OST_TRY(ost_motion_slope(newton->problem->mesh, state->displacement, newton->displacement, step, state->slope));
+    newton->leads_to_pose = 0;
     OST_TRY(ost_rigid_faces_change(newton->problem->supports->links, state->displacement, newton->displacement, 1, step,
                                    state->slope));
     memcpy(state->displacement, newton->displacement, count * sizeof(double));

@@ -5,7 +5,6 @@
 #include "core/parallel/free_memory.h"
 #include "guard/linearity.h"
 #include "solve/buckling/buckling.h"
-#include "solve/distributing/distributing.h"
 #include "solve/left_out/left_out.h"
 #include "solve/linear.h"
 #include "solve/newton_data.h"
@@ -110,7 +109,7 @@ static OstStatus start(const OstAnalysis *analysis, const OstResult *result, Ost
         memcpy(state->slope + nodes, linear->pressure, (size_t)problem->pressures->owned * sizeof(double));
         OST_TRY(ost_pressure_complete(problem->pressures, state->slope + nodes));
     }
-    ost_turned_couplings_begin(problem,
+    ost_turned_couplings_begin(problem, 1.0,
                                state->slope + ost_newton_state_size(problem) - ost_turned_couplings_count(problem));
     state->step = ost_newton_first_step(result->newton.linear_rotation);
     if (has_pose(analysis)) {
@@ -160,6 +159,8 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     ost_ledger_enter(problem->ctx, OST_EFFECT_LARGE_ROTATION);
     OstStatus status = start(analysis, result, &state);
     OST_THEN(ost_newton_create(&linear->stiffness, &result->solve, &newton));
+    if (status == OST_SUCCESS && has_pose(analysis))
+        ost_newton_go_straight(newton);
     if (status == OST_SUCCESS && result->answer.known && ost_reactions_allow_stop(problem))
         ost_newton_stop_at(newton, ost_stop_share(problem, analysis->options.algebraic_fraction, &result->answer),
                            &result->answer, result->stress_surplus || result->node_stress_surplus);
@@ -167,7 +168,9 @@ static OstStatus go_on(OstAnalysis *analysis, OstResult *result, OstSolvedFor *s
     if (status == OST_SUCCESS) {
         status = ost_nonlinear_advance(newton, result->newton.linear_strain, 1.0, &state);
         if (status == OST_SUCCESS || status == OST_NOT_CONVERGED) {
-            const OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
+            OstStatus filled = ost_newton_fill(newton, &state, result, solved_for);
+            if (filled == OST_SUCCESS && ost_turned_couplings_count(problem) > 0)
+                filled = ost_analysis_take_loading(analysis);
             status = filled == OST_SUCCESS ? status : filled;
         }
     }
@@ -194,7 +197,7 @@ OstStatus ost_nonlinear_look_closer(const OstAnalysis *analysis, OstResult *resu
     if (!linear->stiffness.solver)
         status = ost_stiffness_solver_make(&linear->stiffness);
     OST_THEN(ost_left_out_find(analysis->problem, linear->stiffness.solver, result));
-    if (result->newton.linear_error <= analysis->problem->accuracy && !ost_distributing_any(analysis->problem))
+    if (result->newton.linear_error <= analysis->problem->accuracy)
         OST_THEN(ost_buckling_judge(analysis->problem, linear->stiffness.solver, result));
     ost_ledger_leave(analysis->ctx);
     return status;

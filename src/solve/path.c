@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "solve/distributing/turned.h"
 #include "solve/linear.h"
 #include "solve/path_data.h"
 
@@ -102,6 +103,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
         return OST_SUCCESS;
     for (int i = 0; i < path->count; i++) {
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, path->times[i], result, &solved_for));
+        result->t = path->times[i];
         OST_TRY(ost_nonlinear_judge(problem, result));
         if (i == 0 || result->newton.linear_error > path->judged.linear_error)
             path->judged = result->newton;
@@ -111,6 +113,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
     }
     if (problem->automatic && path->judged.linear_error <= problem->accuracy) {
         OST_TRY(ost_superposition_at(&path->linear, path->analysis, strained, result, &solved_for));
+        result->t = strained;
         OST_TRY(ost_nonlinear_look_closer(path->analysis, result));
         OST_FREE(result->left_out, result->left_out_reaction); /* of that time alone */
         if (result->buckling.known)
@@ -121,6 +124,7 @@ static OstStatus decide(OstPath *path, OstResult *result)
         path->judged.linear_change = result->newton.linear_change;
         path->judged.linear_error = fmax(path->judged.linear_error, result->newton.linear_error);
     }
+    result->t = 1.0;
     path->nonlinear = !ost_nonlinear_stays_linear(problem, path->judged.linear_error);
     return OST_SUCCESS;
 }
@@ -149,6 +153,11 @@ static OstStatus begin(OstPath *path, double t, OstResult *result)
         path->state.slope[i] = result->displacement[i] / span;
     for (OstLocal i = 0; problem->pressures && i < problem->pressures->count; i++)
         path->state.slope[3 * (size_t)problem->mesh->node_count + (size_t)i] = linear->pressure[i] / span;
+    const size_t multipliers = (size_t)ost_turned_couplings_count(problem);
+    double *multiplier = path->state.slope + ost_newton_state_size(problem) - multipliers;
+    ost_turned_couplings_begin(problem, t, multiplier);
+    for (size_t k = 0; k < multipliers; k++)
+        multiplier[k] /= span;
     path->state.step = span * ost_newton_first_step(result->newton.linear_rotation);
     ost_superposition_release(&path->linear);
     return OST_SUCCESS;

@@ -59,9 +59,9 @@ static OstStatus solve_function(OstAnalysis *analysis, int function, OstSuperpos
 {
     OstVerdict before = {.count = 0};
     OstSolveReport report;
-    OST_TRY(ost_linear_load(analysis, function, &before, &all->norm[function]));
+    OST_TRY(ost_linear_load(analysis, function, &before));
     OST_TRY(ost_verdict_raise(analysis->ctx, &before));
-    const OstStatus solved = ost_linear_solve(analysis, function, &report, all->part[function]);
+    const OstStatus solved = ost_linear_solve(analysis, function, &report, &all->norm[function], all->part[function]);
     add_report(&all->solve, &report);
     *unfinished |= solved == OST_NOT_CONVERGED;
     return solved == OST_NOT_CONVERGED ? OST_SUCCESS : solved;

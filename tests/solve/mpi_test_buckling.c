@@ -77,6 +77,26 @@ static void columns_buckle_at_eulers_load(void **state)
                    euler(0.06, 0.04, 1e6, shear, 2.9173), euler(0.04, 0.06, 1e6, shear, 2.9173), 0.001);
 }
 
+/* An end that is moved in the mean: by as much as a force of 1 would. Its multiplier turns with its point, and what is
+ * held no motion changes. */
+#define MOVED(at, motion) \
+    "loads: [{on: {boundary: xmax}, distributing: {at: [" at ", 0.03, 0.02], displacement: " motion "}}]\n"
+
+static void a_column_that_a_coupling_presses_buckles_at_eulers_load(void **state)
+{
+    const double shear = 5e5;
+    assert_factors(COLUMN ISOTROPIC "constraints: [" CLAMPED "]\n" MOVED("1", "[-0.0004166666666667, free, free]")
+                       LINEAR MODES,
+                   euler(0.06, 0.04, 1e6, shear, 2.0), euler(0.04, 0.06, 1e6, shear, 2.0), 0.01);
+    assert_factors(COLUMN ISOTROPIC "constraints: [" CLAMPED "]\n" MOVED("1.5", "[-0.0004166666666667, free, free]")
+                       LINEAR MODES,
+                   euler(0.06, 0.04, 1e6, shear, 2.9173), euler(0.04, 0.06, 1e6, shear, 2.9173), 0.001);
+    assert_factors(COLUMN ISOTROPIC "constraints: [" CLAMPED
+                                    "]\n" MOVED("1", "[-0.0004166666666667, free, free], rotation: [0, 0, 0]")
+                                        LINEAR MODES,
+                   euler(0.06, 0.04, 1e6, shear, 1.0), euler(0.04, 0.06, 1e6, shear, 1.0), 0.01);
+}
+
 /* Of the mixed form: nothing holds the clamped end's face from widening. Linear theory is no answer beyond the load. */
 #define INCOMPRESSIBLE                                                                           \
     COLUMN "materials: [{region: all, youngs_modulus: 1e6, poissons_ratio: 0.5}]\nconstraints: " \
@@ -157,6 +177,7 @@ static void what_has_buckled_is_no_answer(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(columns_buckle_at_eulers_load),
+    cmocka_unit_test(a_column_that_a_coupling_presses_buckles_at_eulers_load),
     cmocka_unit_test(an_incompressible_column_buckles_at_eulers_load),
     cmocka_unit_test(a_column_of_fibres_buckles_at_eulers_load),
     cmocka_unit_test(a_column_that_swells_buckles),

@@ -37,18 +37,28 @@ static void take(const OstModes *modes, OstResult *result)
 
 static OstStatus find(const OstProblem *problem, OstSolver *solver, OstResult *result)
 {
-    const OstModesAim aim = {.modes = problem->buckling_modes,
-                             .tolerance = fine,
-                             .most_iterations = MOST_ITERATIONS,
-                             .mixed = problem->pressures != NULL};
+    OstModesAim aim = {.modes = problem->buckling_modes,
+                       .tolerance = fine,
+                       .most_iterations = MOST_ITERATIONS,
+                       .mixed = problem->pressures != NULL};
     OstModes modes;
+    OstHeldMotions *held = NULL;
+    int known = 0;
     OstStatus status = OST_SUCCESS;
     for (int m = 0; m < aim.modes; m++)
         OST_THEN(OST_NEW(problem->ctx, &result->buckling_mode[m], 3 * (size_t)problem->mesh->node_count));
-    OST_TRY(ost_agree(problem->ctx, status));
-    OST_TRY(ost_modes_find(problem, solver, result, &aim, result->buckling_mode, &modes));
-    take(&modes, result);
-    return OST_SUCCESS;
+    status = ost_agree(problem->ctx, status);
+    OST_THEN(ost_held_motions_create(problem, solver, result->t, &known, &held));
+    aim.held = held;
+    if (status == OST_SUCCESS && !known)
+        ost_warn(problem->ctx, "no buckling modes are looked for: of what a distributing coupling moves no rotation is "
+                               "known, as it lies on a line");
+    else
+        OST_THEN(ost_modes_find(problem, solver, result, &aim, result->buckling_mode, &modes));
+    if (status == OST_SUCCESS && known)
+        take(&modes, result);
+    ost_held_motions_destroy(&held);
+    return status;
 }
 
 OstStatus ost_buckling_find(const OstProblem *problem, OstSolver *solver, OstResult *result)
@@ -118,33 +128,48 @@ static OstStatus may_buckle(const OstProblem *problem, const OstResult *result, 
     return OST_SUCCESS;
 }
 
-OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result)
+/* One mode, if there is one so soft that it matters. */
+static OstStatus look_for_mode(const OstProblem *problem, OstSolver *solver, const OstHeldMotions *held,
+                               OstResult *result)
 {
     OstModesAim aim = {.modes = 1,
                        .tolerance = crude,
                        .least = 1.0 / ost_near_buckling(problem->mesh),
-                       .most_iterations = MOST_TO_JUDGE};
+                       .most_iterations = MOST_TO_JUDGE,
+                       .held = held};
     OstModes modes;
-    int may = 0;
+    OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
+    if (problem->pressures && modes.softening[0] >= aim.least) { /* but they may hold the body */
+        const double most = modes.softening[0];
+        aim.mixed = 1;
+        const OstStatus status = ost_modes_find(problem, solver, result, &aim, NULL, &modes);
+        if (status == OST_NOT_CONVERGED) /* Newton's method tells */
+            result->newton.linear_error = fmax(result->newton.linear_error, most);
+        if (status != OST_SUCCESS)
+            return status == OST_NOT_CONVERGED ? OST_SUCCESS : status;
+    }
+    if (modes.softening[0] >= aim.least)
+        take(&modes, result);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_buckling_judge(const OstProblem *problem, OstSolver *solver, OstResult *result)
+{
+    OstHeldMotions *held = NULL;
+    int may = 0, known = 0;
     if (!problem->conservative) /* no energy tells: it may begin to move long before */
         return OST_SUCCESS;
     if (!result->buckling.known) {
         OST_TRY(may_buckle(problem, result, &may));
         if (!may)
             return OST_SUCCESS;
-        OST_TRY(ost_modes_find(problem, solver, result, &aim, NULL, &modes));
-        if (problem->pressures && modes.softening[0] >= aim.least) { /* but they may hold the body */
-            const double most = modes.softening[0];
-            aim.mixed = 1;
-            const OstStatus status = ost_modes_find(problem, solver, result, &aim, NULL, &modes);
-            if (status == OST_NOT_CONVERGED) /* Newton's method tells */
-                result->newton.linear_error = fmax(result->newton.linear_error, most);
-            if (status != OST_SUCCESS)
-                return status == OST_NOT_CONVERGED ? OST_SUCCESS : status;
-        }
-        if (!(modes.softening[0] >= aim.least))
+        OstStatus status = ost_held_motions_create(problem, solver, result->t, &known, &held);
+        if (known)
+            OST_THEN(look_for_mode(problem, solver, held, result));
+        ost_held_motions_destroy(&held);
+        OST_TRY(status);
+        if (!result->buckling.known)
             return OST_SUCCESS;
-        take(&modes, result);
     }
     if (result->buckling.factor[0] < near_enough)
         result->newton.linear_error = fmax(result->newton.linear_error, 1.0 / result->buckling.factor[0]);

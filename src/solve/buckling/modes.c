@@ -22,7 +22,8 @@ typedef struct Search {
     const OstProblem *problem;
     OstSolver *solver;
     const OstResult *result;
-    int mixed;          /* as OstModesAim.mixed */
+    const OstHeldMotions *held; /* as OstModesAim's */
+    int mixed;
     int block, columns; /* modes in work; columns filled */
     size_t n;           /* 3 × rows */
     double *room;       /* of all columns */
@@ -143,6 +144,8 @@ static OstStatus multiply(Search *search, int first, int count)
     for (int c = 0; c < count; c++) {
         if (problem->follower)
             add_follower(search, search->v[c], search->f[c]);
+        if (search->held)
+            OST_TRY(ost_held_motions_bend(search->held, search->v[c], search->f[c]));
         OST_TRY(ost_levers_multiply(problem->supports->links, search->turning.levers, search->v[c], search->f[c]));
         OST_TRY(ost_system_take_rows(system, search->f[c], search->s[first + c]));
         add_turning(search, search->x[first + c], search->s[first + c]);
@@ -157,7 +160,7 @@ static OstStatus multiply(Search *search, int first, int count)
 static const double residual_of_mixed = 1e-6;
 
 /* Of the column `c` of those filled next. A mixed form is solved: of the subspace's motions the pressures are known. */
-static OstStatus precondition(const Search *search, int c, const double *r, double *z)
+static OstStatus precondition_free(const Search *search, int c, const double *r, double *z)
 {
     int found = 0;
     if (search->mixed) {
@@ -170,6 +173,15 @@ static OstStatus precondition(const Search *search, int c, const double *r, doub
     }
     OST_TRY(ost_solver_precondition(search->solver, OST_CYCLE_WHOLE, r, z, &found));
     return found ? OST_SUCCESS : OST_RAISE(search->problem->ctx, OST_NOT_CONVERGED, "the solver has no strategy left");
+}
+
+/* Likewise, of motions that couplings allow: r becomes its forces on these. */
+static OstStatus precondition(const Search *search, int c, double *r, double *z)
+{
+    if (search->held)
+        OST_TRY(ost_held_motions_project_force(search->held, r));
+    OST_TRY(precondition_free(search, c, r, z));
+    return search->held ? ost_held_motions_project(search->held, z, search->p[c]) : OST_SUCCESS;
 }
 
 /* Forces that vary smoothly over the body, another pattern for each column, and no symmetry of it: every soft motion
@@ -378,6 +390,7 @@ OstStatus ost_modes_find(const OstProblem *problem, OstSolver *solver, const Ost
     Search search = {.problem = problem,
                      .solver = solver,
                      .result = result,
+                     .held = aim->held,
                      .mixed = aim->mixed,
                      .block = aim->modes + (aim->least > 0.0 ? 0 : SPARE),
                      .n = 3 * (size_t)problem->system->matrix->rows};

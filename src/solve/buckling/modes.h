@@ -5,6 +5,7 @@
 #include "algebra/solver.h"
 #include "problem/problem.h"
 #include "problem/result_data.h"
+#include "solve/distributing/held.h"
 
 /* How the search goes about it. */
 typedef struct OstModesAim {
@@ -14,6 +15,7 @@ typedef struct OstModesAim {
     int most_iterations;
     int mixed; /* of a mixed form: its pressures hold, and it is solved where else a preconditioner is applied; 0: the
                   stiffness is taken without them, which is less stiff */
+    const OstHeldMotions *held; /* by moved couplings; NULL: nothing */
 } OstModesAim;
 
 /* What a search found. `softening`: 1 / load factor of each mode, the largest first; 0 or less: no growth of this load

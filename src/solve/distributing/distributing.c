@@ -22,8 +22,9 @@ typedef struct Motion {
 } Motion;
 
 typedef struct Search {
-    OstProblem *problem;
+    const OstProblem *problem;
     OstSolver *solver;
+    int function;               /* of time */
     const double *rhs, *volume; /* volume: of the pressures, or NULL */
     int count;
     Motion *motion;
@@ -65,7 +66,10 @@ static OstStatus open_search(Search *search)
     for (int i = 0; i < c->load_count && status == OST_SUCCESS; i++)
         for (int k = 0; k < 6 && c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
             if (c->loads[i].moved[k])
-                search->motion[search->count++] = (Motion){.load = i, .component = k, .given = c->loads[i].motion[k]};
+                search->motion[search->count++] =
+                    (Motion){.load = i,
+                             .component = k,
+                             .given = c->loads[i].table == search->function ? c->loads[i].motion[k] : 0.0};
     for (int k = 0; k < search->count && status == OST_SUCCESS; k++) {
         status = OST_NEW(ctx, &search->motion[k].force, nodes);
         OST_THEN(OST_NEW(ctx, &search->motion[k].v, rows));
@@ -95,11 +99,14 @@ static OstStatus respond(Search *search, int k)
 {
     const OstProblem *problem = search->problem;
     Motion *motion = &search->motion[k];
-    double *drive = problem->scene->drive + 6 * (size_t)motion->load;
+    OstDrive *drive = ost_scene_drive(problem->scene, 0, motion->load);
+    const OstDrive before = *drive;
     OstSolveReport report;
-    memset(drive, 0, 6 * sizeof *drive);
-    drive[motion->component] = 1.0;
-    OST_TRY(ost_scene_load(problem->scene, motion->load, motion->force));
+    *drive = (OstDrive){.of_point = {0.0}};
+    drive->of_point[motion->component] = 1.0;
+    const OstStatus status = ost_scene_load(problem->scene, motion->load, motion->force);
+    *drive = before;
+    OST_TRY(status);
     OST_TRY(ost_system_take_rows(problem->system, motion->force, search->of_rows));
     const OstSaddle saddle = {problem->coupling, search->zero, motion->p};
     OST_TRY(ost_solver_solve_mixed(search->solver, problem->pressures ? &saddle : NULL, search->of_rows, motion->v,
@@ -117,7 +124,7 @@ static OstStatus find_lack(Search *search)
     const OstProblem *problem = search->problem;
     const size_t rows = 3 * (size_t)problem->system->matrix->rows;
     memset(search->of_rows, 0, rows * sizeof(double));
-    OST_TRY(ost_problem_displacement(problem, 1.0, search->of_rows, search->u));
+    OST_TRY(ost_problem_function_displacement(problem, search->function, search->of_rows, search->u));
     for (int k = 0; k < search->count; k++) {
         double sum = mean_motion(search, &search->motion[k]);
         for (size_t i = 0; i < rows; i++)
@@ -162,47 +169,95 @@ static OstStatus find_sizes(Search *search)
     return OST_SUCCESS;
 }
 
-static OstStatus apply(Search *search)
+static OstStatus apply(const Search *search, OstProblem *problem)
 {
-    OstProblem *problem = search->problem;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &problem->driven, owned)));
-    memset(problem->scene->drive, 0, 6 * (size_t)problem->scene->c->load_count * sizeof(double));
+    OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
+    OstDrive *drive = ost_scene_drive(problem->scene, search->function, 0);
+    double *driven = problem->driven + (size_t)search->function * owned;
+    memset(drive, 0, (size_t)problem->scene->c->load_count * sizeof *drive);
     for (int k = 0; k < search->count; k++) {
         const Motion *motion = &search->motion[k];
-        problem->scene->drive[6 * (size_t)motion->load + (size_t)motion->component] = search->size[k];
+        drive[motion->load].of_point[motion->component] = search->size[k];
         for (size_t i = 0; i < owned; i++)
-            problem->driven[i] += search->size[k] * motion->force[i];
+            driven[i] += search->size[k] * motion->force[i];
     }
-    for (size_t i = 0; i < owned; i++)
-        problem->force[i] += problem->driven[i];
     return OST_SUCCESS;
 }
 
-OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs, const double *volume)
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, int function, const double *rhs,
+                                const double *volume)
 {
-    Search search = {.problem = problem, .solver = solver, .rhs = rhs, .volume = volume};
+    Search search = {.problem = problem, .solver = solver, .function = function, .rhs = rhs, .volume = volume};
     ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
     OstStatus status = open_search(&search);
     OST_THEN(find_sizes(&search));
-    OST_THEN(apply(&search));
+    OST_THEN(apply(&search, problem));
     close_search(&search);
     ost_ledger_leave(problem->ctx);
     return status;
 }
 
+static OstStatus take_responses(const Search *search, OstResponses *responses)
+{
+    const OstProblem *problem = search->problem;
+    const size_t count = (size_t)search->count, rows = 3 * (size_t)problem->system->matrix->rows;
+    const size_t pressures = problem->pressures ? ost_problem_pressure_room(problem) : 0;
+    *responses = (OstResponses){.count = search->count, .rows = rows, .pressures = pressures};
+    OstStatus status = OST_NEW(problem->ctx, &responses->force, count * rows);
+    OST_THEN(OST_NEW(problem->ctx, &responses->response, count * rows));
+    OST_THEN(OST_NEW(problem->ctx, &responses->pressure, count * pressures));
+    OST_THEN(OST_NEW(problem->ctx, &responses->products, count * count));
+    status = ost_agree(problem->ctx, status);
+    for (size_t k = 0; k < count && status == OST_SUCCESS; k++) {
+        const Motion *motion = &search->motion[k];
+        memcpy(responses->response + k * rows, motion->v, rows * sizeof(double));
+        if (pressures > 0)
+            memcpy(responses->pressure + k * pressures, motion->p, pressures * sizeof(double));
+        status = ost_system_take_rows(problem->system, motion->force, responses->force + k * rows);
+    }
+    if (status == OST_SUCCESS)
+        memcpy(responses->products, search->matrix, count * count * sizeof(double));
+    return status;
+}
+
+OstStatus ost_distributing_respond(const OstProblem *problem, OstSolver *solver, OstResponses *responses)
+{
+    Search search = {.problem = problem, .solver = solver};
+    ost_ledger_enter(problem->ctx, OST_EFFECT_MOVED_COUPLING);
+    OstStatus status = open_search(&search);
+    for (int k = 0; k < search.count && status == OST_SUCCESS; k++)
+        status = respond(&search, k);
+    OST_THEN(ost_sum(problem->ctx, search.count * search.count, search.matrix));
+    OST_THEN(take_responses(&search, responses));
+    close_search(&search);
+    ost_ledger_leave(problem->ctx);
+    return status;
+}
+
+void ost_responses_release(OstResponses *responses)
+{
+    OST_FREE(responses->force, responses->response, responses->pressure, responses->products);
+}
+
+OstStatus ost_distributing_make_room(OstProblem *problem)
+{
+    const size_t count = 3 * (size_t)problem->mesh->owned_nodes * (size_t)ost_problem_functions(problem);
+    return problem->driven ? OST_SUCCESS : OST_NEW(problem->ctx, &problem->driven, count);
+}
+
 void ost_distributing_forget(OstProblem *problem)
 {
-    for (size_t i = 0; problem->driven && i < 3 * (size_t)problem->mesh->owned_nodes; i++)
-        problem->force[i] -= problem->driven[i];
     OST_FREE(problem->driven);
 }
 
 OstStatus ost_distributing_react(const OstProblem *problem, double t, OstResult *result)
 {
-    const double factor = ost_problem_factor(problem, 0, t);
-    for (size_t i = 0; i < 3 * (size_t)problem->mesh->owned_nodes; i++) {
-        const double driven = factor * problem->driven[i];
+    const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
+    for (size_t i = 0; i < owned; i++) {
+        double driven = 0.0;
+        for (int k = 0; k < ost_problem_functions(problem); k++)
+            driven += ost_problem_factor(problem, k, t) * problem->driven[(size_t)k * owned + i];
         result->force[i] -= driven;
         result->reaction[i] += driven;
         if (result->passed)

@@ -13,10 +13,27 @@
 /* Local. Has the problem such a coupling? */
 int ost_distributing_any(const OstProblem *problem);
 
-/* Collective. Finds the forces of all of them, and adds them to the problem's load. `rhs` and, of a mixed form,
- * `volume` (else NULL): the right-hand sides of the other loads. Raises OST_INVALID_INPUT where two couplings
- * contradict each other or a support. */
-OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, const double *rhs, const double *volume);
+/* Collective. Finds the forces of all of them in one function of time, where those with another table stay in place,
+ * and adds them to its load. `rhs` and, of a mixed form, `volume` (else NULL): the right-hand sides of its other loads.
+ * Raises OST_INVALID_INPUT where two couplings contradict each other or a support. */
+OstStatus ost_distributing_find(OstProblem *problem, OstSolver *solver, int function, const double *rhs,
+                                const double *volume);
+
+/* Unit forces of all that is given, and the responses to them; the caller's. */
+typedef struct OstResponses {
+    int count;
+    size_t rows, pressures;   /* numbers of one; 0 pressures without a mixed form */
+    double *force, *response; /* count × rows */
+    double *pressure;         /* count × pressures: those of the responses, ghosts too; or NULL */
+    double *products;         /* count × count: forces times responses */
+} OstResponses;
+
+/* Collective. By a solve for each. */
+OstStatus ost_distributing_respond(const OstProblem *problem, OstSolver *solver, OstResponses *responses);
+void ost_responses_release(OstResponses *responses);
+
+/* Local. Room for the forces of all functions, as part of the problem's load. */
+OstStatus ost_distributing_make_room(OstProblem *problem);
 
 /* Local. Takes the forces of an earlier solve off the load. */
 void ost_distributing_forget(OstProblem *problem);

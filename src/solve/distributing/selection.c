@@ -8,6 +8,7 @@
 #include "core/parallel/reduce.h"
 #include "core/small.h"
 #include "problem/boundary_conditions.h"
+#include "solve/motion/motion.h"
 
 #include <string.h>
 
@@ -29,7 +30,7 @@ static OstStatus spread_on(const OstScene *scene, const OstLoad *load, const dou
     OstSpread spread = {.mean = {0.0}};
     OstLocal count = 0, *items = NULL;
     int on_faces = 0, nodes_per_face = 3;
-    OstStatus status = ost_scene_spread(scene, load, &on_faces, &count, &nodes_per_face, &items, &spread);
+    OstStatus status = ost_scene_spread(scene, load, 0, &on_faces, &count, &nodes_per_face, &items, &spread);
     if (status == OST_SUCCESS && !on_faces) {
         OST_FREE(items);
         status = ost_select_nodes(scene->c, scene->mesh, &load->on, &count, &items);
@@ -94,6 +95,7 @@ static OstStatus measure(const OstScene *scene, double *force, OstMovedSelection
     for (size_t n = 0; n < owned; n++)
         area += selection->share[n] = force[3 * n];
     OST_TRY(ost_sum(scene->ctx, 1, &area));
+    selection->area = area;
     OST_TRY(spread_on(scene, selection->load, none, z, centre, force));
     for (size_t n = 0; n < owned; n++) {
         selection->share[n] /= area;
@@ -117,23 +119,6 @@ typedef struct Motion {
     double axis[3][3], point[3], spin[9]; /* R times the axes, and the point; spin: by which moments of F turn R */
     double turning[9];                    /* the vector's change by a rotation */
 } Motion;
-
-/* The quaternion of the rotation nearest to F (B. K. P. Horn, Closed-form solution of absolute orientation using unit
- * quaternions, J. Opt. Soc. Am. A 4, 1987). */
-static OstStatus nearest_rotation(OstContext *ctx, const double f[9], OstRigidMotion *motion)
-{
-    double matrix[16], values[4], vectors[16];
-    const double trace = f[0] + f[4] + f[8];
-    matrix[0] = trace;
-    for (int i = 0, j = 1, k = 2; i < 3; i++, j = (i + 1) % 3, k = (i + 2) % 3) {
-        matrix[1 + i] = matrix[4 * (1 + i)] = f[3 * k + j] - f[3 * j + k];
-        for (int l = 0; l < 3; l++)
-            matrix[4 * (1 + i) + 1 + l] = f[3 * i + l] + f[3 * l + i] - (l == i ? trace : 0.0);
-    }
-    OST_TRY(ost_symmetric_eigen(ctx, 4, matrix, values, vectors));
-    memcpy(motion->turn, vectors + 12, sizeof motion->turn);
-    return OST_SUCCESS;
-}
 
 static void gradient_of_place(const OstMovedSelection *selection, const double *z, double f[9])
 {
@@ -170,7 +155,7 @@ static OstStatus find_motion(OstContext *ctx, const OstMovedSelection *selection
     double f[9], slope[9], rotation[9], stretch[9], inertia[9];
     OstRigidMotion turn;
     gradient_of_place(selection, z, f);
-    OST_TRY(nearest_rotation(ctx, f, &turn));
+    OST_TRY(ost_nearest_rotation(ctx, f, &turn));
     ost_rigid_motion_slope(&turn, slope);
     ost_apply3(slope, selection->point, motion->point);
     for (int i = 0; i < 3; i++) {

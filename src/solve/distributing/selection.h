@@ -12,6 +12,7 @@ typedef struct OstMovedSelection {
     double *share, *arm; /* of owned nodes: the mean displacement's weights; integrals of N (X - c), along the axes */
     double axis[9];      /* principal axes of the selection as rows, the longest first, */
     double extent[3];    /* and its second moments along them */
+    double area;         /* or the number of vertices */
     double point[3];     /* from the centroid c */
     int sums;            /* 3 + 3 × axes along which it extends: the mean displacement, and F along these */
     int turns_wholly;    /* are all components of its rotation given? */

@@ -59,15 +59,19 @@ int ost_turned_couplings_count(const OstProblem *problem)
     return count;
 }
 
-void ost_turned_couplings_begin(const OstProblem *problem, double *multipliers)
+void ost_turned_couplings_begin(const OstProblem *problem, double t, double *multipliers)
 {
     const OstScene *scene = problem->scene;
     if (!ost_distributing_any(problem))
         return;
     for (int i = 0; i < scene->c->load_count; i++)
-        for (int k = 0; k < OST_MOST_GIVEN && scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
+        for (int k = 0; k < OST_MOST_GIVEN && scene->c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++) {
+            double sum = 0.0;
+            for (int f = 0; f < ost_problem_functions(problem); f++)
+                sum += ost_problem_factor(problem, f, t) * ost_scene_drive(scene, f, i)->of_point[k];
             if (scene->c->loads[i].moved[k])
-                *multipliers++ = scene->drive[6 * i + k];
+                *multipliers++ = sum;
+        }
 }
 
 static OstStatus open_couplings(OstTurnedCouplings *all)
@@ -77,7 +81,8 @@ static OstStatus open_couplings(OstTurnedCouplings *all)
     OstStatus status = OST_NEW(scene->ctx, &force, 3 * (size_t)scene->mesh->node_count);
     OST_THEN(OST_NEW(scene->ctx, &all->coupling, (size_t)scene->c->load_count));
     status = ost_agree(scene->ctx, status);
-    memset(scene->drive, 0, 6 * (size_t)scene->c->load_count * sizeof *scene->drive);
+    memset(scene->drive, 0,
+           (size_t)(scene->c->load_count * ost_problem_functions(all->problem)) * sizeof *scene->drive);
     for (int i = 0; i < scene->c->load_count && status == OST_SUCCESS; i++) {
         if (scene->c->loads[i].kind != OST_LOAD_DISTRIBUTING)
             continue;
@@ -158,15 +163,22 @@ OstStatus ost_turned_couplings_move(OstTurnedCouplings *all, double t, const dou
 {
     OstContext *ctx = all->problem->ctx;
     ost_ledger_enter(ctx, OST_EFFECT_MOVED_COUPLING);
-    for (int c = 0; c < all->count; c++)
+    for (int c = 0; c < all->count; c++) {
+        const OstLoad *load = all->coupling[c].load;
         for (int k = 0; k < all->coupling[c].count; k++)
             all->coupling[c].given[k] =
-                ost_problem_factor(all->problem, 0, t) * all->coupling[c].load->motion[all->coupling[c].component[k]];
+                ost_problem_factor(all->problem, load->table, t) * load->motion[all->coupling[c].component[k]];
+    }
     memcpy(all->x, multipliers, (size_t)all->components * sizeof *multipliers);
     OstStatus status = find_sums(all, u, all->z);
     OST_THEN(find_state(all));
     ost_ledger_leave(ctx);
     return ost_agree(ctx, status);
+}
+
+int ost_turned_couplings_sums(const OstTurnedCouplings *all)
+{
+    return all->sums;
 }
 
 void ost_turned_couplings_add(const OstTurnedCouplings *all, double *force)
@@ -352,16 +364,33 @@ OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *all, OstGlob
     return ost_agree(all->problem->ctx, status);
 }
 
+/* The traction that the forces h of a selection are: weights are integrals of N over the area, and of N (X - c). */
+static void find_traction(const OstMovedSelection *selection, const double *h, double factor, OstDrive *drive)
+{
+    for (int i = 0; i < 3; i++)
+        drive->mean[i] = h[i] / (factor * selection->area);
+    for (int s = 3; s < selection->sums; s++)
+        for (int j = 0; j < 3; j++)
+            drive->gradient[3 * (s % 3) + j] += h[s] * selection->axis[3 * (s / 3 - 1) + j] / factor;
+}
+
 OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *all, double t)
 {
     OstProblem *problem = all->problem;
     const size_t owned = 3 * (size_t)problem->mesh->owned_nodes;
-    const double factor = ost_problem_factor(problem, 0, t);
-    OST_TRY(ost_agree(problem->ctx, OST_NEW(problem->ctx, &problem->driven, owned)));
-    ost_turned_couplings_add(all, problem->driven);
-    for (size_t i = 0; i < owned; i++) {
-        problem->driven[i] /= factor != 0.0 ? factor : 1.0;
-        problem->force[i] += problem->driven[i];
+    int function = 0;
+    for (int k = 1; k < ost_problem_functions(problem); k++)
+        if (fabs(ost_problem_factor(problem, k, t)) > fabs(ost_problem_factor(problem, function, t)))
+            function = k;
+    const double factor = ost_problem_factor(problem, function, t);
+    OST_TRY(ost_agree(problem->ctx, ost_distributing_make_room(problem)));
+    double *driven = problem->driven + (size_t)function * owned;
+    ost_turned_couplings_add(all, driven);
+    for (size_t i = 0; i < owned; i++)
+        driven[i] /= factor != 0.0 ? factor : 1.0;
+    for (int c = 0, first = 0; c < all->count && factor != 0.0; first += all->coupling[c++].sums) {
+        const int load = (int)(all->coupling[c].load - problem->scene->c->loads);
+        find_traction(&all->coupling[c], all->h + first, factor, ost_scene_drive(problem->scene, function, load));
     }
     return OST_SUCCESS;
 }

@@ -18,8 +18,8 @@ typedef struct OstTurnedCouplings OstTurnedCouplings;
 /* Local. The number of multipliers. */
 int ost_turned_couplings_count(const OstProblem *problem);
 
-/* Local. Those that linear theory found. */
-void ost_turned_couplings_begin(const OstProblem *problem, double *multipliers);
+/* Local. Those that linear theory found, at t. */
+void ost_turned_couplings_begin(const OstProblem *problem, double t, double *multipliers);
 
 /* Collective. Takes their forces by linear theory off the load. `unknowns`: of a linear solve on this rank. */
 OstStatus ost_turned_couplings_create(OstProblem *problem, size_t unknowns, OstTurnedCouplings **couplings);
@@ -28,6 +28,9 @@ void ost_turned_couplings_destroy(OstTurnedCouplings **couplings);
 /* Collective. Takes them to a displacement (3 × node_count), the multipliers there, and what is given at t. */
 OstStatus ost_turned_couplings_move(OstTurnedCouplings *couplings, double t, const double *u,
                                     const double *multipliers);
+
+/* Local. How many solves a correction takes. */
+int ost_turned_couplings_sums(const OstTurnedCouplings *couplings);
 
 /* Local. Adds their forces there to those of the owned nodes. */
 void ost_turned_couplings_add(const OstTurnedCouplings *couplings, double *force);
@@ -47,7 +50,8 @@ OstStatus ost_turned_couplings_correct(OstTurnedCouplings *couplings, OstTurnedS
  * given? */
 OstStatus ost_turned_couplings_are_stable(const OstTurnedCouplings *couplings, OstGlobal negative, int *stable);
 
-/* Collective. Counts their forces at t as those of the problem's load, as after a linear solve. */
+/* Collective. Counts their forces at t as those of the problem's load, as after a linear solve: of the function with
+ * the largest factor there, as others may be 0. */
 OstStatus ost_turned_couplings_apply(const OstTurnedCouplings *couplings, double t);
 
 #endif
