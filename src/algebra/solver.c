@@ -197,7 +197,7 @@ static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int r
     solver->repeated = facts.repeated |= repeated;
     solver->factors = (OstMumpsForecast){0.0, 0.0};
     OstStatus status = OST_SUCCESS;
-    solver->steps = solver->singular = solver->fine = 0;
+    solver->steps = solver->singular = solver->fine = solver->fits = 0;
     OST_TRY(ost_geometry_renew(&solver->geometry));
     OST_TRY(measure(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);

@@ -24,7 +24,8 @@ struct OstSolver {
     unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
     int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
     int repeated;            /* is it a stiffness among many? */
-    OstMumpsForecast factors; /* what factors of the matrix would take, if they fit, once METRIC has failed */
+    OstMumpsForecast factors; /* what factors of the matrix would take, once METRIC has failed */
+    int fits;                 /* and does memory allow them? */
     int singular;             /* has a strategy found its factors, and so the stiffness, singular to rounding? */
     OstSolverPlan plan;
     /* the current strategy: */

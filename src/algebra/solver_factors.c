@@ -22,7 +22,8 @@ static OstStatus foretell(OstSolver *solver)
     ost_ledger_leave(solver->ctx);
     if (solver->aim.coupling)
         solver->factors.operations *= of_both;
-    if (status == OST_SUCCESS)
+    solver->fits = status == OST_SUCCESS;
+    if (solver->fits)
         ost_log(solver->ctx, OST_LOG_VERBOSE,
                 "solver: factors would take %.3g MiB and %.2g operations for each nonzero",
                 solver->factors.bytes / 1048576.0, solver->factors.operations / solver->nonzeros);
@@ -35,7 +36,7 @@ OstStatus ost_solver_next(OstSolver *solver, OstMethod *next)
     if (solver->method != OST_METHOD_METRIC || solver->repeated || solver->fine)
         return OST_SUCCESS;
     OST_TRY(foretell(solver));
-    if (solver->factors.operations > 0.0 && solver->factors.operations < of_trial * solver->nonzeros)
+    if (solver->fits && solver->factors.operations < of_trial * solver->nonzeros)
         *next = OST_METHOD_DIRECT;
     return OST_SUCCESS;
 }
@@ -44,7 +45,7 @@ OstStatus ost_solver_next(OstSolver *solver, OstMethod *next)
 static double most_of_two_level(const OstSolver *solver, OstMethod method)
 {
     const double allowed = solver->options.factor_memory, most = of_two_level * solver->factors.bytes;
-    return method == OST_METHOD_TWO_LEVEL && !(allowed > 0.0 && allowed < most) ? most : 0.0;
+    return method == OST_METHOD_TWO_LEVEL && solver->fits && !(allowed > 0.0 && allowed < most) ? most : 0.0;
 }
 
 void ost_solver_learned_options(const OstSolver *solver, OstMethod method, OstSolverOptions *options)

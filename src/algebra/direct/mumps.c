@@ -215,19 +215,26 @@ static OstStatus analyse(OstMumps *mumps)
 {
     mumps->id.ICNTL(14) = SPARE_PERCENT;
     call(mumps, JOB_ANALYSE);
-    OST_TRY(check(mumps, "analysis"));
-    return check_memory(mumps);
+    return check(mumps, "analysis");
 }
 
 static OstStatus factor(OstMumps *mumps)
 {
     OST_TRY(analyse(mumps));
+    OST_TRY(check_memory(mumps));
     OstStatus status = factor_entries(mumps);
     for (double shift = least_shift; status == OST_NOT_CONVERGED && shift <= mumps->most_shift; shift *= next_shift) {
         shift_diagonal(mumps, shift);
         status = factor_entries(mumps);
     }
     return status;
+}
+
+static OstStatus foretell(OstMumps *mumps, OstMumpsForecast *forecast)
+{
+    OST_TRY(analyse(mumps));
+    *forecast = (OstMumpsForecast){1e6 * mumps->id.INFOG(17), mumps->id.RINFOG(1)};
+    return check_memory(mumps);
 }
 
 static OstStatus take_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
@@ -289,9 +296,7 @@ static OstStatus create(OstContext *ctx, OstGlobal unknowns, const OstDoubleMatr
     else
         OST_TRY_DONE(take_matrix(made, matrix));
     made->id.n = (MUMPS_INT)made->all;
-    OST_TRY_DONE(forecast ? analyse(made) : factor(made));
-    if (forecast)
-        *forecast = (OstMumpsForecast){1e6 * made->id.INFOG(17), made->id.RINFOG(1)};
+    OST_TRY_DONE(forecast ? foretell(made, forecast) : factor(made));
 done:
     if (made)
         free_entries(made);

@@ -20,7 +20,8 @@ typedef struct OstMumpsForecast {
     double bytes, operations; /* 0: not known */
 } OstMumpsForecast;
 
-/* Collective. Analyses alone. Raises what ost_mumps_create raises, but for OST_NOT_CONVERGED. */
+/* Collective. Analyses alone. Raises what ost_mumps_create raises, but for OST_NOT_CONVERGED; the forecast is known
+ * also where memory does not allow such factors. */
 OstStatus ost_mumps_foretell(const OstBlockMatrix *matrix, double memory, OstMumpsForecast *forecast);
 
 /* Collective. Analyses and factors; the matrix is not kept. Its diagonal should be of order 1 (OstScaling). Raises
