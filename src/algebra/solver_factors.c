@@ -5,9 +5,9 @@
 
 /* When a strategy has failed, are factors of the whole matrix the better next one? */
 
-/* Operations of a factorisation, for each nonzero, in whose time STRONG is found to fail, by 40 iterations, as it mostly
- * does after METRIC: stiff inclusions of 280,000 unknowns take 1.3e5 and 220 s, STRONG 246 s; slivers of 86,000 3.8e4
- * and 7.9 s, STRONG 9.3 s (E3 x 1e6, 0.999 of the border). */
+/* Operations of a factorisation, for each nonzero, in whose time STRONG is found to fail, by 40 iterations, as it
+ * mostly does after METRIC: stiff inclusions of 280,000 unknowns take 1.3e5 and 220 s, STRONG 246 s; slivers of
+ * 86,000 3.8e4 and 7.9 s, STRONG 9.3 s (E3 x 1e6, 0.999 of the border). */
 static const double of_trial = 1e5;
 
 /* A mixed form's factors, of A and of both equations, over those of A. */

@@ -65,10 +65,12 @@ static void tell_progress(const OstGoal *goal)
 {
     enum { EVERY = 500 };
     const OstConvergence *convergence = &goal->convergence;
-    const double gain = log(ost_convergence_whole_factor(convergence));
     const int left = goal->most_iterations - goal->iterations;
+    if (convergence->count % EVERY != 0)
+        return;
+    const double gain = log(ost_convergence_whole_factor(convergence));
     const double more = gain < 0.0 ? log(goal->target / convergence->residual.least) / gain : INFINITY;
-    if (convergence->count % EVERY != 0 || !(more > 0.0))
+    if (!(more > 0.0))
         return;
     char words[64] = "more than are left";
     if (more <= left)
