@@ -22,8 +22,7 @@ static int may_change(const OstSolver *solver)
     return solver->plan.options.method == OST_METHOD_AUTO && !solver->is_shared;
 }
 
-/* Records how a strategy ended. If there are too many, the last place is overwritten, so that the final one is there.
- */
+/* Records how a strategy ended. If there are too many, the last place is overwritten: the final one is there. */
 static OstSolveStep *note_step(OstSolveStep *step, int *steps, OstMethod method, const char *outcome)
 {
     OstSolveStep *noted = &step[*steps < OST_MAX_STEPS ? (*steps)++ : OST_MAX_STEPS - 1];
@@ -95,12 +94,9 @@ static OstStatus build(OstSolver *solver, OstMethod method, OstSolveStep *step, 
     OstSolverOptions options;
     for (;; method++) {
         const double start = ost_own_seconds(solver->ctx);
-        OstSolverOptions planned = solver->plan.options;
-        planned.precise = solver->precise;
-        planned.fine = solver->fine;
-        ost_solver_strategy_options(&planned, method, &options);
+        ost_solver_learned_options(solver, method, &options);
         ost_ledger_enter(solver->ctx, OST_LEDGER_HIERARCHY);
-        const OstStatus status = set_up(solver, &options);
+        const OstStatus status = ost_solver_explain_memory(solver, &options, set_up(solver, &options));
         ost_ledger_leave(solver->ctx);
         solver->strategy_seconds = ost_own_seconds(solver->ctx) - start;
         solver->setup_seconds += solver->strategy_seconds;
@@ -198,9 +194,10 @@ static OstStatus build_first(OstSolver *solver, const OstSolverOptions *options)
 static OstStatus start(OstSolver *solver, const OstSolverOptions *options, int repeated)
 {
     OstSolverFacts facts = facts_of(solver);
-    facts.repeated |= repeated;
+    solver->repeated = facts.repeated |= repeated;
+    solver->factors = (OstMumpsForecast){0.0, 0.0};
     OstStatus status = OST_SUCCESS;
-    solver->steps = solver->singular = solver->fine = 0;
+    solver->steps = solver->singular = solver->fine = solver->fits = 0;
     OST_TRY(ost_geometry_renew(&solver->geometry));
     OST_TRY(measure(solver, &facts));
     ost_solver_plan(options, &facts, &solver->plan);
@@ -341,12 +338,17 @@ static int is_singular(const OstSolver *solver, const OstGoal *goal)
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
     const int again = may_be_precise(solver, goal);
-    const OstMethod next = again ? solver->method : (OstMethod)(solver->method + 1);
+    OstMethod next = solver->method;
+    if (!again)
+        OST_TRY(ost_solver_next(solver, &next));
     solver->precise |= again;
     goal->scale = 0.0;
     OstStatus status = OST_OUT_OF_MEMORY;
+    const int early = next == OST_METHOD_DIRECT && solver->method == OST_METHOD_METRIC;
     if (!solver->fine || again)
         status = build(solver, next, report->step, &report->steps);
+    if (early && is_mendable(status))
+        status = build(solver, OST_METHOD_STRONG, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
     if (is_singular(solver, goal))

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ALGEBRA_SOLVER_DATA_H
 
 #include "algebra/direct/direct.h"
+#include "algebra/direct/mumps.h"
 #include "algebra/matrix/geometry.h"
 #include "algebra/multigrid/metric.h"
 #include "algebra/solver_aim.h"
@@ -22,7 +23,10 @@ struct OstSolver {
     int fine;                /* is the current strategy the last one: small aggregates on all levels? */
     unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
     int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
-    int singular;            /* has a strategy found its factors, and so the stiffness, singular to rounding? */
+    int repeated;            /* is it a stiffness among many? */
+    OstMumpsForecast factors; /* what factors of the matrix would take, once METRIC has failed */
+    int fits;                 /* and does memory allow them? */
+    int singular;             /* has a strategy found its factors, and so the stiffness, singular to rounding? */
     OstSolverPlan plan;
     /* the current strategy: */
     OstMethod method;              /* AUTO if there is none */
@@ -53,6 +57,17 @@ OstStatus ost_solver_factor_direct(OstSolver *solver, double memory);
 /* Collective. Improves u and the pressures of solver->saddle by the current strategy, as ost_saddle_solve. */
 OstStatus ost_solver_improve_mixed(OstSolver *solver, const double *f, double *u, OstGoal *goal,
                                    OstSolveReport *report);
+
+/* Collective. The method that follows the current one: DIRECT after METRIC where factors are foretold to take less than
+ * it takes to find out about STRONG. */
+OstStatus ost_solver_next(OstSolver *solver, OstMethod *next);
+
+/* Local. The options of the strategy for `method`, from the planned ones and what has been found out since. Where
+ * factors of the matrix itself fit, those of TWO_LEVEL's coarse level may take less than they do. */
+void ost_solver_learned_options(const OstSolver *solver, OstMethod method, OstSolverOptions *options);
+
+/* Local. `status` of a strategy's set-up with these options; raised again with the reason if it broke that rule. */
+OstStatus ost_solver_explain_memory(const OstSolver *solver, const OstSolverOptions *options, OstStatus status);
 
 /* Local. The method to go on with where no next one can be built: that which has converged fastest, for what an
  * iteration costs; AUTO if none has come so far. */

@@ -3,6 +3,7 @@
 #include "algebra/solver_options.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* The strategy that goes on where no other is left. */
 
@@ -48,15 +49,20 @@ OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report
 
 void ost_solver_tell_last(const OstSolver *solver, const OstGoal *goal, const OstSolveReport *report)
 {
+    const int left = goal->most_iterations - goal->iterations;
+    char size[64] = "";
+    if (solver->factors.bytes > 0.0)
+        snprintf(size, sizeof size, " (%.3g MiB)", solver->factors.bytes / 1048576.0);
     for (int s = report->steps - 1; s >= 0; s--) {
         const OstSolveStep *step = &report->step[s];
         if (step->method != solver->method || step->iterations == 0)
             continue;
-        ost_log(solver->ctx, OST_LOG_NORMAL,
-                "solver: no strategy is quick here, and factors do not fit into memory: %s goes on, at some %.2g s an "
-                "iteration, for up to %d more (solver.max_iterations)",
-                ost_method_name(step->method), step->seconds / step->iterations,
-                goal->most_iterations - goal->iterations);
+        ost_log(
+            solver->ctx, OST_LOG_NORMAL,
+            "solver: no strategy is quick here, and factors%s do not fit into memory: %s goes on, at some %.2g s an "
+            "iteration, for up to %d more (solver.max_iterations), %.2g hours",
+            size, ost_method_name(step->method), step->seconds / step->iterations, left,
+            left * step->seconds / step->iterations / 3600.0);
         return;
     }
 }

@@ -29,6 +29,9 @@ static void create_misled(ElasticProblem *problem, double **metric)
     problem->geometry.metric = *metric;
 }
 
+/* Of many stiffnesses: factors of one, which are cheap here, do not come before the other strategies. */
+static const OstSolverFacts one_of_many = {.repeated = 1};
+
 static void destroy_misled(ElasticProblem *problem, double **metric)
 {
     OST_FREE(*metric);
@@ -94,6 +97,7 @@ static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
     double *metric = NULL;
     OstSolveReport report;
     create_misled(&problem, &metric);
+    problem.geometry.facts = &one_of_many;
     double *u = new_vector(&problem), *expected = reference(&problem);
     const OstSolverOptions options = slow_options();
     assert_success(create_and_solve(&problem, &options, u, &report));
@@ -114,6 +118,25 @@ static void a_slow_strategy_is_left_for_a_stronger_one(void **state)
     destroy_misled(&problem, &metric);
 }
 
+/* Few unknowns are factored in less time than a stronger smoother takes to fail. */
+static void cheap_factors_come_before_a_stronger_smoother(void **state)
+{
+    ElasticProblem problem;
+    double *metric = NULL;
+    OstSolveReport report;
+    create_misled(&problem, &metric);
+    double *u = new_vector(&problem), *expected = reference(&problem);
+    const OstSolverOptions options = slow_options();
+    assert_success(create_and_solve(&problem, &options, u, &report));
+    assert_int_equal(report.steps, 2);
+    assert_int_equal(report.step[0].method, OST_METHOD_METRIC);
+    assert_int_equal(report.step[1].method, OST_METHOD_DIRECT);
+    assert_true(report.relative_residual <= 1e-10);
+    assert_true(difference(&problem, u, expected) < 1e-6);
+    OST_FREE(u, expected);
+    destroy_misled(&problem, &metric);
+}
+
 /* With the smoother given, only a factorisation helps; the solver gets there. */
 static void given_parameters_are_left_alone_up_to_the_top(void **state)
 {
@@ -121,6 +144,7 @@ static void given_parameters_are_left_alone_up_to_the_top(void **state)
     double *metric = NULL;
     OstSolveReport report;
     create_misled(&problem, &metric);
+    problem.geometry.facts = &one_of_many;
     double *u = new_vector(&problem), *expected = reference(&problem);
     OstSolverOptions options = slow_options();
     options.given = OST_GIVEN_AGGREGATE | OST_GIVEN_DEGREE | OST_GIVEN_RATIO | OST_GIVEN_BLOCK;
@@ -319,6 +343,7 @@ static void a_large_coarse_level_is_factored(void **state)
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slow_strategy_is_left_for_a_stronger_one),
+    cmocka_unit_test(cheap_factors_come_before_a_stronger_smoother),
     cmocka_unit_test(given_parameters_are_left_alone_up_to_the_top),
     cmocka_unit_test(a_chosen_method_is_never_changed),
     cmocka_unit_test(the_next_strategy_starts_from_what_was_reached),

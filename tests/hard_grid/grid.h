@@ -35,7 +35,8 @@ typedef struct HardPoint {
     int ratio, stiff, axes; /* which ratio, the stiff direction (0 to 2), which axes */
     HardFlaw flaw;
     OstGlobal size; /* about so many unknowns; 0: the grid's own, a few thousand */
-    int iterated;   /* without a factorisation; one at size always is */
+    int iterated;   /* without a factorisation; one at size is, unless `usual` */
+    int usual;      /* at size: as a case is by default, with factors that fit and the mixed form */
     int iterations; /* at most, without a factorisation; 0: as a case has */
 } HardPoint;
 
@@ -101,6 +102,7 @@ typedef struct HardRun {
     int mixed;               /* the points of the mixed form, and no others */
     OstGlobal size;          /* about so many unknowns, sound bodies alone, no factorisation; 0: the grid's own */
     int iterated;            /* solved without a factorisation */
+    int usual;               /* with a size: as a case is by default, with factors that fit and the mixed form */
     int all;                 /* with a size: all points, and not the spread of six a shape and order */
     int iterations;          /* at most, without a factorisation; 0: as a case has */
     const char *like;        /* only points whose description has this; NULL: all */
@@ -163,8 +165,10 @@ OstStatus hard_find_truth(const OstScene *scene, const OstResult *result, HardTr
 /* Collective. The same of both equations of a mixed form; fills known, error, pressure and size alone. */
 OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
-/* Collective. The same of a body that is too large to be factored: the residual in the tets' equations alone. */
+/* Collective. The same of a body that is too large to be factored: the residual in the tets' equations alone; of a
+ * mixed form that of both, as forces. */
 OstStatus hard_find_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
+OstStatus hard_find_mixed_residual(const OstScene *scene, const OstResult *result, HardTruth *truth);
 
 /* Collective. The same of one that is refused: fills indefinite and rounded, without factors (singular.h). */
 OstStatus hard_find_singular(const OstScene *scene, HardTruth *truth);

@@ -199,7 +199,9 @@ OstStatus hard_solve_scene(OstScene *scene, HardReading *reading)
     OstResult *result = NULL;
     OstStatus status = OST_SUCCESS;
     solve(scene, &result, reading);
-    if (size > 0 && result)
+    if (size > 0 && result && ost_field_is_mixed(scene->field))
+        status = hard_find_mixed_residual(scene, result, &reading->truth);
+    else if (size > 0 && result)
         status = hard_find_residual(scene, result, &reading->truth);
     if (size > 0 && status == OST_SUCCESS)
         judge_residual(reading);

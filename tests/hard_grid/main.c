@@ -32,6 +32,7 @@ static const struct argp_option options[] = {
      "their residual in 64 bits",
      0},
     {"iterated", 'I', 0, 0, "Leave the solver no factorisation but that of the coarsest level", 0},
+    {"usual", 'U', 0, 0, "With --size: solved as a case is by default, with factors that fit and the mixed form", 0},
     {"all", 'a', 0, 0, "With --size: all points and not six of each shape and order", 0},
     {"iterations", 'L', "N", 0, "Without a factorisation: at most N iterations, in place of the program's own limit",
      0},
@@ -68,6 +69,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     switch (key) {
     case 'Q':
         arguments->run.quick = 1;
+        return 0;
+    case 'U':
+        arguments->run.usual = 1;
         return 0;
     case 'a':
         arguments->run.all = 1;

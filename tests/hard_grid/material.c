@@ -50,7 +50,7 @@ OstStatus hard_materials(OstContext *ctx, const HardPoint *point, HardCase *hard
     static char all[] = "all", inclusion[] = "inclusion";
     const double contrast = hard_contrast(point->shape);
     hard->c.materials = hard->material;
-    hard->c.unmixed = point->poisson != HARD_INCOMPRESSIBLE; /* what is judged is the solution of one matrix */
+    hard->c.unmixed = point->poisson != HARD_INCOMPRESSIBLE && !point->usual; /* most judge one matrix's solution */
     hard->c.material_count = contrast == 1.0 ? 1 : 2;
     for (int m = 0; m < hard->c.material_count; m++) {
         hard->material[m].region = m == 0 ? all : inclusion;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "hard_grid/mixed_exact.h"
 
+#include "algebra/saddle/norm.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "hard_grid/exact_tet.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MOST_PASSES = 400, MOST_STALLS = 12, VERTICES = 4 };
 
@@ -206,14 +208,49 @@ static OstStatus create(const OstResult *result, Exact *exact)
     return OST_SUCCESS;
 }
 
-OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
-                                HardErrors *errors)
+static Exact exact_of(const OstScene *scene, const HardMixed *mixed)
 {
-    Exact exact = {.scene = scene,
+    return (Exact){.scene = scene,
                    .mixed = mixed,
                    .mesh = scene->mesh,
                    .rows = mixed->direct->n,
                    .pressures = (size_t)mixed->coupling->rows};
+}
+
+/* Of the first equation, and of the pressures that would close the second. `room`: of displacements and of three
+ * pressures. */
+static OstStatus find_relative(Exact *exact, double *room, double *relative)
+{
+    const HardMixed *mixed = exact->mixed;
+    const OstSaddle saddle = {mixed->coupling, exact->rp, exact->dp};
+    double *work = room + exact->rows, squares[OST_SADDLE_SQUARES], size;
+    OST_TRY(ost_coupling_schur_solve(mixed->coupling, NULL, exact->rp, exact->dp, work));
+    OST_TRY(ost_saddle_squares(mixed->coupling, exact->ru, exact->rp, exact->dp, room, squares));
+    memset(exact->rp, 0, exact->pressures * sizeof *exact->rp);
+    OST_TRY(ost_saddle_size(mixed->direct->system->matrix, &saddle, mixed->direct->f, &size));
+    *relative = sqrt(squares[OST_SADDLE_FORCE]) / size;
+    return OST_SUCCESS;
+}
+
+OstStatus hard_find_mixed_exact_residual(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
+                                         double *relative)
+{
+    Exact exact = exact_of(scene, mixed);
+    double *room = NULL;
+    OstStatus status = create(result, &exact);
+    OST_THEN(ost_agree(scene->ctx, OST_NEW(scene->ctx, &room, exact.rows + 3 * exact.pressures)));
+    if (status == OST_SUCCESS) {
+        find_residual(&exact);
+        status = find_relative(&exact, room, relative);
+    }
+    OST_FREE(exact.u, exact.internal, exact.ru, room);
+    return status;
+}
+
+OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
+                                HardErrors *errors)
+{
+    Exact exact = exact_of(scene, mixed);
     *errors = (HardErrors){0, NAN, NAN, NAN};
     OstStatus status = create(result, &exact);
     OST_THEN(solve(&exact, &errors->known));

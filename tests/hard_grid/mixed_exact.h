@@ -21,4 +21,8 @@ typedef struct HardMixed {
 OstStatus hard_find_mixed_exact(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
                                 HardErrors *errors);
 
+/* Collective. The residual of both equations as the tets have them, in forces, over the loads; without factors. */
+OstStatus hard_find_mixed_exact_residual(const OstScene *scene, const HardMixed *mixed, const OstResult *result,
+                                         double *relative);
+
 #endif

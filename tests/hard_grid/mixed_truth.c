@@ -42,11 +42,16 @@ static void clear(Mixed *mixed)
     OST_FREE(mixed->p, mixed->sum, mixed->memory);
 }
 
-static OstStatus create(const OstScene *scene, Mixed *mixed)
+static OstStatus assemble(const OstScene *scene, Mixed *mixed)
 {
     OST_TRY(hard_direct_assemble(scene, &mixed->direct));
     OST_TRY(ost_pressure_space_create(scene->mesh, scene->field, &mixed->space));
-    OST_TRY(ost_pressure_coupling(mixed->space, mixed->direct.system, scene->field, &mixed->b));
+    return ost_pressure_coupling(mixed->space, mixed->direct.system, scene->field, &mixed->b);
+}
+
+static OstStatus create(const OstScene *scene, Mixed *mixed)
+{
+    OST_TRY(assemble(scene, mixed));
     OST_TRY(ost_saddle_factors_create(mixed->direct.system->matrix, mixed->b, 0.0, &mixed->factors));
     const size_t n = mixed->n = mixed->direct.n, m = mixed->m = (size_t)mixed->b->rows;
     const size_t columns = 3 * (size_t)mixed->direct.system->matrix->columns, mg = (size_t)mixed->b->columns;
@@ -200,6 +205,16 @@ OstStatus hard_find_mixed_truth(const OstScene *scene, const OstResult *result, 
     if (truth->known && result)
         OST_THEN(hard_find_mixed_exact(scene, &(HardMixed){&mixed.direct, mixed.space, mixed.b, mixed.factors}, result,
                                        &truth->off));
+    clear(&mixed);
+    return status;
+}
+
+OstStatus hard_find_mixed_residual(const OstScene *scene, const OstResult *result, HardTruth *truth)
+{
+    Mixed mixed = {.ctx = scene->ctx};
+    OstStatus status = assemble(scene, &mixed);
+    OST_THEN(hard_find_mixed_exact_residual(scene, &(HardMixed){&mixed.direct, mixed.space, mixed.b, NULL}, result,
+                                            &truth->residual));
     clear(&mixed);
     return status;
 }

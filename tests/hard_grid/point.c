@@ -63,7 +63,7 @@ typedef struct PointList {
     const int *wanted;
     int stride;
     int seen;
-    int mixed, iterated, iterations;
+    int mixed, iterated, usual, iterations;
     OstGlobal size;
     const char *like;
     int spread; /* only the spread of each shape and order? */
@@ -103,6 +103,7 @@ static void add(PointList *list, HardPoint point)
         return;
     point.size = list->size;
     point.iterated = list->iterated;
+    point.usual = list->usual;
     point.iterations = list->iterations;
     if (list->point)
         list->point[list->count] = point;
@@ -181,6 +182,7 @@ OstStatus hard_points(OstContext *ctx, const HardRun *run, int *count, HardPoint
                                              : QUICK_STRIDE,
                       .mixed = run->mixed,
                       .iterated = run->iterated,
+                      .usual = run->usual,
                       .iterations = run->iterations,
                       .size = run->size,
                       .like = run->like,

@@ -119,7 +119,8 @@ OstStatus hard_make_case(OstContext *ctx, const HardPoint *point, HardCase *hard
     *hard = (HardCase){.c = {.ctx = ctx, .path = path, .title = path, .order = point->order}};
     hard->c.solver = ost_solver_default_options();
     hard->c.solver.accept_attainable = 1;
-    if (point->size > 0 || point->iterated) { /* a byte: nothing is factored but multigrid's coarsest level */
+    if (!point->usual &&
+        (point->size > 0 || point->iterated)) { /* a byte: nothing is factored but multigrid's coarsest level */
         hard->c.solver.factor_memory = 1.0;
         if (point->iterations > 0)
             hard->c.solver.max_iterations = point->iterations;

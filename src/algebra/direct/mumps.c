@@ -15,6 +15,7 @@
 #define ICNTL(k) icntl[(k)-1]
 #define INFOG(k) infog[(k)-1]
 #define INFO(k) info[(k)-1]
+#define RINFOG(k) rinfog[(k)-1]
 
 enum {
     JOB_START = -1,
@@ -210,11 +211,16 @@ static void shift_diagonal(OstMumps *mumps, double shift)
     mumps->shift = shift;
 }
 
-static OstStatus factor(OstMumps *mumps)
+static OstStatus analyse(OstMumps *mumps)
 {
     mumps->id.ICNTL(14) = SPARE_PERCENT;
     call(mumps, JOB_ANALYSE);
-    OST_TRY(check(mumps, "analysis"));
+    return check(mumps, "analysis");
+}
+
+static OstStatus factor(OstMumps *mumps)
+{
+    OST_TRY(analyse(mumps));
     OST_TRY(check_memory(mumps));
     OstStatus status = factor_entries(mumps);
     for (double shift = least_shift; status == OST_NOT_CONVERGED && shift <= mumps->most_shift; shift *= next_shift) {
@@ -222,6 +228,13 @@ static OstStatus factor(OstMumps *mumps)
         status = factor_entries(mumps);
     }
     return status;
+}
+
+static OstStatus foretell(OstMumps *mumps, OstMumpsForecast *forecast)
+{
+    OST_TRY(analyse(mumps));
+    *forecast = (OstMumpsForecast){1e6 * mumps->id.INFOG(17), mumps->id.RINFOG(1)};
+    return check_memory(mumps);
 }
 
 static OstStatus take_matrix(OstMumps *mumps, const OstDoubleMatrix *matrix)
@@ -264,9 +277,9 @@ static OstStatus prepare_vectors(OstMumps *mumps)
     return OST_SUCCESS;
 }
 
-/* Of one or the other. */
+/* Factors one or the other, or, unless `forecast` is NULL, only analyses. */
 static OstStatus create(OstContext *ctx, OstGlobal unknowns, const OstDoubleMatrix *matrix, OstMumpsEntries *entries,
-                        double memory, double most_shift, OstMumps **mumps)
+                        double memory, double most_shift, OstMumpsForecast *forecast, OstMumps **mumps)
 {
     OstMumps *made = NULL;
     *mumps = NULL;
@@ -283,7 +296,7 @@ static OstStatus create(OstContext *ctx, OstGlobal unknowns, const OstDoubleMatr
     else
         OST_TRY_DONE(take_matrix(made, matrix));
     made->id.n = (MUMPS_INT)made->all;
-    OST_TRY_DONE(factor(made));
+    OST_TRY_DONE(forecast ? foretell(made, forecast) : factor(made));
 done:
     if (made)
         free_entries(made);
@@ -295,13 +308,13 @@ done:
 
 OstStatus ost_mumps_create(const OstDoubleMatrix *matrix, double memory, OstMumps **mumps)
 {
-    return create(matrix->ctx, (OstGlobal)matrix->size * matrix->rows, matrix, NULL, memory, 0.0, mumps);
+    return create(matrix->ctx, (OstGlobal)matrix->size * matrix->rows, matrix, NULL, memory, 0.0, NULL, mumps);
 }
 
 OstStatus ost_mumps_create_symmetric(OstContext *ctx, OstLocal unknowns, OstMumpsEntries *entries, double memory,
                                      OstGlobal *negative, OstMumps **mumps)
 {
-    OST_TRY(create(ctx, unknowns, NULL, entries, memory, 0.0, mumps));
+    OST_TRY(create(ctx, unknowns, NULL, entries, memory, 0.0, NULL, mumps));
     *negative = (*mumps)->id.INFOG(12);
     return OST_SUCCESS;
 }
@@ -313,9 +326,22 @@ OstStatus ost_mumps_create_of_rows(const OstBlockMatrix *matrix, const OstScalin
     *mumps = NULL;
     OST_TRY(ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, scaling, &view)));
     const OstStatus status =
-        create(matrix->ctx, 3 * (OstGlobal)matrix->rows, view, NULL, memory, shift ? rounding_shift : 0.0, mumps);
+        create(matrix->ctx, 3 * (OstGlobal)matrix->rows, view, NULL, memory, shift ? rounding_shift : 0.0, NULL, mumps);
     if (status == OST_SUCCESS && shift)
         *shift = (*mumps)->shift;
+    ost_double_matrix_destroy(&view);
+    return status;
+}
+
+OstStatus ost_mumps_foretell(const OstBlockMatrix *matrix, double memory, OstMumpsForecast *forecast)
+{
+    OstDoubleMatrix *view = NULL;
+    OstMumps *mumps = NULL;
+    *forecast = (OstMumpsForecast){0.0, 0.0};
+    OST_TRY(ost_agree(matrix->ctx, ost_double_matrix_borrow(matrix, NULL, &view)));
+    const OstStatus status =
+        create(matrix->ctx, 3 * (OstGlobal)matrix->rows, view, NULL, memory, 0.0, forecast, &mumps);
+    ost_mumps_destroy(&mumps);
     ost_double_matrix_destroy(&view);
     return status;
 }

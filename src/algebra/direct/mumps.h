@@ -15,6 +15,15 @@ typedef struct OstMumpsEntries {
     double *value;
 } OstMumpsEntries;
 
+/* What factors would take over all ranks. */
+typedef struct OstMumpsForecast {
+    double bytes, operations; /* 0: not known */
+} OstMumpsForecast;
+
+/* Collective. Analyses alone. Raises what ost_mumps_create raises, but for OST_NOT_CONVERGED; the forecast is known
+ * also where memory does not allow such factors. */
+OstStatus ost_mumps_foretell(const OstBlockMatrix *matrix, double memory, OstMumpsForecast *forecast);
+
 /* Collective. Analyses and factors; the matrix is not kept. Its diagonal should be of order 1 (OstScaling). Raises
  * OST_OUT_OF_MEMORY if the analysis foresees more than `memory` bytes over all ranks (0: more than the machines have
  * free), before any is allocated; OST_NOT_CONVERGED if the matrix is singular or indefinite; OST_LIMIT_EXCEEDED if

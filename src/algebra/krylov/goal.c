@@ -60,6 +60,27 @@ void ost_goal_begin_pass(OstGoal *goal)
     ost_convergence_begin_pass(&goal->convergence);
 }
 
+/* A long solve says now and then how far it is, and foretells its end from all of its iterations. */
+static void tell_progress(const OstGoal *goal)
+{
+    enum { EVERY = 500 };
+    const OstConvergence *convergence = &goal->convergence;
+    const int left = goal->most_iterations - goal->iterations;
+    if (convergence->count % EVERY != 0)
+        return;
+    const double gain = log(ost_convergence_whole_factor(convergence));
+    const double more = gain < 0.0 ? log(goal->target / convergence->residual.least) / gain : INFINITY;
+    if (!(more > 0.0))
+        return;
+    char words[64] = "more than are left";
+    if (more <= left)
+        snprintf(words, sizeof words, "some %.0f more", more);
+    ost_log(goal->ctx, OST_LOG_NORMAL,
+            "solver: after %d iterations the residual is %.2g, %.2g is asked for: %s at this rate; %d are left "
+            "(solver.max_iterations)",
+            convergence->count, convergence->residual.least / goal->start, goal->target / goal->start, words, left);
+}
+
 int ost_goal_count(OstGoal *goal, double norm, double weight)
 {
     const double whole = log(goal->start / goal->target);
@@ -68,6 +89,7 @@ int ost_goal_count(OstGoal *goal, double norm, double weight)
     ost_progress(goal->ctx, "solve", whole > 0.0 ? fmin(fmax(log(goal->start / norm) / whole, 0.0), 1.0) : 1.0);
     if (norm <= goal->target)
         return 0;
+    tell_progress(goal);
     const double more = remaining(goal);
     if (goal->iterations >= goal->most_iterations) {
         end_by_iterations(goal);
