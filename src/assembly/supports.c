@@ -219,6 +219,9 @@ static OstStatus complete_links(OstSupports *supports)
         held[n].constrained = find_support(supports, n, held[n].projector, held[n].prescribed);
     OST_THEN(ost_links_complete(supports->links, held));
     OST_THEN(ost_rigid_faces_measure(supports->links));
+    for (OstLocal n = 0; n < supports->mesh->owned_nodes && status == OST_SUCCESS; n++)
+        if (held[n].constrained == 0)
+            supports->index[n] = -1;
     OST_FREE(held);
     return status;
 }
@@ -227,11 +230,11 @@ OstStatus ost_supports_complete(OstSupports *supports)
 {
     ost_ledger_enter(supports->ctx, OST_LEDGER_SUPPORTS);
     OstStatus status = ost_agree(supports->ctx, check_anything_constrained(supports));
+    if (status == OST_SUCCESS && supports->links)
+        status = complete_links(supports);
     OST_THEN(share_with_ghosts(supports));
     if (status == OST_SUCCESS && supports->spring)
         status = ost_agree(supports->ctx, ost_halo_import(supports->mesh->halo, 9 * sizeof(double), supports->spring));
-    if (status == OST_SUCCESS && supports->links)
-        status = complete_links(supports);
     ost_ledger_leave(supports->ctx);
     return status;
 }

@@ -93,15 +93,20 @@ static int asks_for_help(int argc, char **argv)
     return 0;
 }
 
+static int ends_in_json(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+}
+
 error_t ost_cli_take(int key, char *value, struct argp_state *state)
 {
     OstArguments *arguments = state->input;
     const char *path = arguments->case_path;
     if (key == ARGP_KEY_ARG && path) {
-        const size_t length = strlen(path);
-        const int is_json = length > 5 && strcmp(path + length - 5, ".json") == 0;
+        const char *json = ends_in_json(path) ? path : ends_in_json(value) ? value : NULL;
         argp_error(state, "one case at a time: '%s' came after '%s'%s%s", value, path,
-                   is_json ? "; to write JSON into that file, say --json=" : "", is_json ? path : "");
+                   json ? "; to write JSON into that file, say --json=" : "", json ? json : "");
         return EINVAL;
     }
     if (key == ARGP_KEY_ARG) {

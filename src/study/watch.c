@@ -218,9 +218,10 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 {
     if (scene->c->free_body)
         return "a free body has none";
-    return result->formulation == OST_FORMULATION_LINEAR ? "its adjoint problem was not solved"
-                                                         : "its adjoint problem was not solved, or a pressure that "
-                                                           "follows makes it unsymmetric";
+    const int follows = result->formulation != OST_FORMULATION_LINEAR &&
+                        ost_effect_on(&scene->plan.effects, OST_EFFECT_FOLLOWER_PRESSURE);
+    return follows ? "its adjoint problem was not solved, or a pressure that follows makes it unsymmetric"
+                   : "its adjoint problem was not solved";
 }
 
 /* Why there is no error, in words. */

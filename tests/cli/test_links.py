@@ -294,6 +294,36 @@ accuracy: {relative_residual: 1e-10}
 """
 
 
+def an_edge_may_be_held_on_both_sides_of_a_tie():
+    """Two boards glued upon each other are clamped at one end and lie on a plane of symmetry, both: as where they are merged."""
+    folder = new_folder()
+    brick_mesh(os.path.join(folder, "two.msh"), [("a", (0, 0, 0), (3, 1, 1), (3, 1, 1), "a"), ("b", (0, 0, 1), (3, 1, 1), (3, 1, 1), "b")])
+    text = """
+mesh: {file: two.msh}
+element: {order: 2}
+materials: [{region: all, youngs_modulus: 100, poissons_ratio: NU}]
+large_rotation: off
+constraints:
+  - {on: {boundary: [a_xmin, b_xmin]}, displacement: [0, 0, 0]}
+  - {on: {boundary: [a_ymin, b_ymin]}, slide: [0, 1, 0]}
+  - {on: {boundary: b_zmin}, tied_to: {boundary: a_zmax}}
+loads: [{on: {boundary: b_zmax}, traction: [1, 2, 3]}]
+watch:
+  tip: {displacement: {nearest: [3, 1, 2]}, component: z}
+  clamp: {reaction: {boundary: [a_xmin, b_xmin]}, component: z}
+  side: {reaction: {boundary: [a_ymin, b_ymin]}, component: y}
+accuracy: {relative_residual: 1e-10}
+"""
+    for nu in fewer(("0.3", "0.5")):
+        tied = text.replace("NU", nu)
+        merged = tied.replace("two.msh", "two.msh, merge: 1e-6").replace("  - {on: {boundary: b_zmin}, tied_to: {boundary: a_zmax}}\n", "")
+        values, expected = watched(tied, folder, MORE), watched(merged, folder, (1,))
+        for name, value in expected.items():
+            near(values[name], value, 1e-8, f"nu = {nu}: {name}")
+    done, _, _ = solve(tied.replace("[a_ymin, b_ymin]}, slide", "b_ymin}, slide"), folder=folder)
+    check(done.exit_code == 2 and "is constrained besides" in done.errors, f"a side that its leaders do not have: {done.errors}")
+
+
 def what_holds_a_tied_face_bears_its_own():
     """By balance: its force, and not what the tie passes on, which the other face has. Where a part is held, both are in it."""
     folder = new_folder()
@@ -643,6 +673,7 @@ load_cases_have_faces_of_their_own()
 tied_parts_pull_as_one()
 a_tie_passes_moments_across_a_gap()
 what_a_tie_passes_on_is_no_reaction()
+an_edge_may_be_held_on_both_sides_of_a_tie()
 what_holds_a_tied_face_bears_its_own()
 what_periodic_faces_pass_on_is_no_reaction()
 a_tie_joins_what_coincides()

@@ -255,15 +255,6 @@ static OstStatus raise_of(const OstLinks *links, const OstLink *link, const char
                      (long long)ost_mesh_node_number(links->mesh, link->node), x[0], x[1], x[2], text);
 }
 
-static OstStatus check_follower(const OstLinks *links, const Leading *leading, const OstLink *link)
-{
-    if (leading[link->node].held.constrained == 0)
-        return OST_SUCCESS;
-    return raise_of(links, link,
-                    "follows others here (a tied, periodic or rigid face), and is constrained besides; leave it out of "
-                    "one of them, or constrain those that it follows");
-}
-
 static OstStatus keep_held(OstLinks *links, const OstLink *link, int k, const double weight[9])
 {
     OST_TRY(OST_GROW(links->ctx, &links->held, links->held_count + 1));
@@ -292,8 +283,41 @@ static OstStatus take_leader(OstLinks *links, const Leading *leading, OstLink *l
     return of->held.constrained ? keep_held(links, link, k, weight) : OST_SUCCESS;
 }
 
+/* A follower is at rest in the directions that it is held in, if its leaders are: as at the common edge of two tied
+ * parts that are clamped there, or lie on a plane of symmetry. */
+static int is_held_by_leaders(const OstLinks *links, const Leading *leading, const OstLink *link)
+{
+    static const double rounding = 1e-9;
+    const OstHeld *own = &leading[link->node].held;
+    double largest = ost_norm3(own->prescribed) + ost_norm3(links->offset + 3 * (size_t)link->node);
+    if (link->face >= 0) /* the rows of its leaders are a rigid motion's */
+        return 0;
+    for (int k = 0; k < link->count && largest == 0.0; k++) {
+        const double *weight = link->leader[k].weight;
+        double left[9];
+        ost_multiply3(own->projector, weight, left);
+        for (int i = 0; i < 9; i++)
+            largest = fmax(largest, fabs(weight[i] - left[i]));
+        largest = largest < rounding ? ost_norm3(leading[link->slot[k]].held.prescribed) : largest;
+    }
+    return largest == 0.0;
+}
+
+/* What its leaders do for it, its own supports need not. */
+static OstStatus check_follower(const OstLinks *links, const Leading *leading, const OstLink *link, OstHeld *held)
+{
+    if (held->constrained == 0)
+        return OST_SUCCESS;
+    held->constrained = 0;
+    return is_held_by_leaders(links, leading, link)
+               ? OST_SUCCESS
+               : raise_of(links, link,
+                          "follows others here (a tied, periodic or rigid face), and is constrained besides; leave it "
+                          "out of one of them, or constrain those that it follows");
+}
+
 /* Collective. Only own links: ghosts get theirs later. */
-static OstStatus take_supports(OstLinks *links, const OstHeld *held)
+static OstStatus take_supports(OstLinks *links, OstHeld *held)
 {
     const OstMesh *mesh = links->mesh;
     Leading *leading = NULL;
@@ -304,9 +328,9 @@ static OstStatus take_supports(OstLinks *links, const OstHeld *held)
     }
     OstStatus status = ost_agree(links->ctx, ost_halo_import(links->halo, sizeof *leading, leading));
     for (OstLocal i = 0; i < links->count && status == OST_SUCCESS; i++) {
-        status = check_follower(links, leading, &links->link[i]);
         for (int k = 0; k < links->link[i].count && status == OST_SUCCESS; k++)
             status = take_leader(links, leading, &links->link[i], k);
+        OST_THEN(check_follower(links, leading, &links->link[i], &held[links->link[i].node]));
     }
     for (OstLocal i = 0; i < links->lever_count && status == OST_SUCCESS; i++) {
         const OstLink *link = ost_link_of(links, links->lever[i].node);
@@ -331,7 +355,7 @@ static OstStatus mark_leaders(OstLinks *links)
     return status == OST_SUCCESS ? ost_agree(links->ctx, ost_halo_import(links->mesh->halo, 1, links->leads)) : status;
 }
 
-OstStatus ost_links_complete(OstLinks *links, const OstHeld *held)
+OstStatus ost_links_complete(OstLinks *links, OstHeld *held)
 {
     int moves = 0;
     links->all = links->count;

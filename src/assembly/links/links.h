@@ -129,9 +129,9 @@ typedef struct OstHeld {
 } OstHeld;
 
 /* Collective. Call it when all links are there: takes the supports of the owned nodes, as leaders, into weights and
- * offsets, and gives ghosts their owners' links. Raises OST_INVALID_INPUT where a follower is constrained, or followed.
- */
-OstStatus ost_links_complete(OstLinks *links, const OstHeld *held);
+ * offsets, and gives ghosts their owners' links. A follower's own supports are taken from it (constrained is 0 then)
+ * where its leaders hold it at rest; raises OST_INVALID_INPUT where they do not, or a follower is followed. */
+OstStatus ost_links_complete(OstLinks *links, OstHeld *held);
 
 /* Collective. Gives ghosts the weights of their owners' links. */
 OstStatus ost_links_share_weights(OstLinks *links);
