@@ -329,11 +329,6 @@ static int should_change(const OstSolver *solver, const OstGoal *goal, const Ost
     return may && mendable && !solver->aged && solver->method < OST_METHOD_DIRECT;
 }
 
-static int is_singular(const OstSolver *solver, const OstGoal *goal)
-{
-    return goal->singular || solver->singular;
-}
-
 /* Builds the next strategy, or the same one with more digits; if memory does not allow it, one that goes on. */
 static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *report)
 {
@@ -351,7 +346,7 @@ static OstStatus take_next(OstSolver *solver, OstGoal *goal, OstSolveReport *rep
         status = build(solver, OST_METHOD_STRONG, report->step, &report->steps);
     if (status != OST_OUT_OF_MEMORY && status != OST_LIMIT_EXCEEDED)
         return status;
-    if (is_singular(solver, goal))
+    if (goal->singular || solver->singular)
         status = refuse_singular(solver->ctx, &report->step[report->steps - 1]);
     const OstMethod best = ost_solver_choose_last(solver, report);
     if (best == OST_METHOD_AUTO)
@@ -462,7 +457,7 @@ static OstStatus solve_scaled(OstSolver *solver, const double *f, double *u, con
     solver->scale = goal.scale;
     report_goal(&goal, stop->size, report);
     OST_THEN(ost_goal_verdict(&goal));
-    if (status == OST_NOT_CONVERGED && goal.end == OST_END_STALLED && is_singular(solver, &goal))
+    if (status == OST_NOT_CONVERGED && goal.end == OST_END_STALLED && (goal.singular || solver->singular))
         status = raise_singular(solver->ctx);
     if (status == OST_NOT_CONVERGED && goal.end == OST_END_PRECONDITIONER && !solver->is_shared &&
         solver->plan.options.method != OST_METHOD_AUTO)
