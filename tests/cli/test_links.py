@@ -8,7 +8,7 @@ from bricks import brick_mesh
 from program import SANITIZED, check, fewer, new_folder, run, solve, write
 
 RANKS = (2,)  # what a formula gives, on several ranks alone
-MORE = (1, 3)  # where a rank may have no face of a link, or leaders on two others
+MORE = (3,)  # where a rank may have no face of a link, or leaders on two others
 
 
 def watched(text, folder=None, ranks=RANKS, most=None):
