@@ -195,7 +195,8 @@ static int is_enough(const OstEstimate *estimate, const Enough *enough, const Pr
         now->to_come <= share_to_come * square &&
         (now->to_come <= small_to_come * square || now->to_come <= estimate->per_left * falling * now->gain))
         return 1;
-    const int gains_tell = !enough->by_left || (n > 4 && !estimate->is_flat);
+    const int is_left = estimate->is_flat && now->to_come > share_to_come * square;
+    const int gains_tell = !is_left && (n > 4 || !enough->by_left);
     return is_pair && gains_tell && now->pair <= enough->gain * now->sum &&
            by_gains <= enough->rest * (now->sum + by_gains);
 }
