@@ -22,8 +22,8 @@ static const double largest_ratio = 0.75;
 
 /* What later steps add to |e|² is about this often what is left of r'B r on the functions: 2 to 5 times after three or
  * four steps in seven of ten errors of `verify`, and to 11 in nine. It tells if r'B r falls, or is small beside |e|².
- * In flat tets r'B r falls before the error does: 7 to 17 times are missing where edges are four times as long as tets
- * are thick, 26 of eight, 41 of 20, about the cube of the flatness. */
+ * In flat tets r'B r falls before the error does: 7 to 17 times it is missing where edges are 4 times as long as tets
+ * are thick, 26 times for 8 and 41 for 20. That is about the cube of the flatness, from `flat_from` to `flattest`. */
 static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to_come = 0.05;
 
 static const double flat_from = 1.9, flattest = 6.0;
