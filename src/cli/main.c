@@ -5,6 +5,7 @@
 #include "core/interrupt/interrupt.h"
 #include "core/progress.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <mpi.h>
 #include <sched.h>
@@ -166,17 +167,35 @@ static int may_read_memory(void)
 }
 
 /* Sets what MPI and the BLAS read from the environment, unless it is set: one thread a rank, as there is one rank a
- * core; no look for GPUs on an X server; and no copies from another process's memory where the system forbids them.
- * OpenBLAS reads it before main: where that was missing, the program starts itself again. */
-static void settle_environment(char **argv)
+ * core; no look for GPUs on an X server; and no copies from another process's memory where the system forbids them. */
+static void settle_environment(void)
 {
-    const int late = getenv("OPENBLAS_NUM_THREADS") == NULL;
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
     setenv("OMP_NUM_THREADS", "1", 0);
     setenv("MKL_NUM_THREADS", "1", 0);
     setenv("HWLOC_COMPONENTS", "-gl", 0);
     if (!may_read_memory())
         setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+}
+
+static int is_settled_for_blas;
+
+/* OpenBLAS calls this before main, and then starts its threads. The linker finds ours in place of its own. */
+__attribute__((visibility("default"))) void openblas_read_env(void);
+void openblas_read_env(void)
+{
+    void (*const theirs)(void) = (void (*)(void))dlsym(RTLD_NEXT, "openblas_read_env");
+    settle_environment();
+    is_settled_for_blas = 1;
+    if (theirs)
+        theirs();
+}
+
+/* Another BLAS has read the environment by now: where its threads were not set, the program starts itself again. */
+static void settle_environment_of_blas(char **argv)
+{
+    const int late = !is_settled_for_blas && getenv("OPENBLAS_NUM_THREADS") == NULL;
+    settle_environment();
     if (late)
         execv("/proc/self/exe", argv); /* returns only if there is no /proc: then the BLAS keeps its threads */
 }
@@ -278,7 +297,7 @@ static void launch_scale(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    settle_environment(argv);
+    settle_environment_of_blas(argv);
     setvbuf(stdout, NULL, _IOLBF, 0); /* in a log, warnings stand between its lines and where they belong */
     launch_scale(argc, argv);
     leave_networks_alone();

@@ -56,6 +56,15 @@ def one_process_needs_nobody(folder):
         check(not os.path.exists(os.path.join(folder, "session")), f"{chosen}: Open MPI has made its folder")
 
 
+def the_program_starts_once(folder):
+    """Its libraries take a third of a small run to load. The linker says so each time, by LD_DEBUG of the GNU C library."""
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    process = subprocess.run([PROGRAM, "--version"], cwd=folder, env=environment | {"LD_DEBUG": "statistics"},
+                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=240)
+    starts = process.stderr.count("startup time in dynamic loader")
+    check(process.returncode == 0 and starts == 1, f"--version: exit {process.returncode}, {starts} starts")
+
+
 def a_case_comes_from_standard_input(folder):
     process = subprocess.run([PROGRAM, "check", "-", "--json"], cwd=folder, input=CASE, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, text=True, timeout=240)
@@ -176,6 +185,7 @@ def main():
     impossible_sizes_are_told_by_their_limit(folder)
     a_case_comes_from_standard_input(folder)
     one_process_needs_nobody(folder)
+    the_program_starts_once(folder)
     numbers_out_of_range_are_refused(folder)
 
 
