@@ -386,10 +386,11 @@ static OstStatus find_least_change(const OstResult *result, const OstWatch *watc
     return OST_SUCCESS;
 }
 
-/* A sum of forces that statics alone gives stays as it is when the body turns, if the loads keep their directions. */
+/* What statics alone gives stays as it is when the body turns: a sum of forces if the loads keep their directions, a
+ * moment if there are none. */
 static int is_same_once_turned(const OstScene *scene, const OstWatch *watch, const OstWatched *watched)
 {
-    return watch->kind == OST_WATCH_REACTION && !watch->of_moment && watched->exact &&
+    return watch->kind == OST_WATCH_REACTION && watched->exact && !(watch->of_moment && has_given_forces(scene->c)) &&
            !ost_effect_on(&scene->plan.effects, OST_EFFECT_FOLLOWER_PRESSURE);
 }
 
