@@ -54,7 +54,7 @@ typedef struct OstPlan {
     int bends; /* would a thin wall bend? Not a curved one under pressure: it is a membrane, as a closed one is anyway
                 */
     int adjoints;           /* of watched quantities */
-    int solves_to_residual; /* for a watched reaction of a mixed form, or of faces that are linked */
+    int solves_to_residual; /* on a path; for a watched reaction of a mixed form, or of faces that are linked */
     OstCoarsening coarsening;
     OstPlanLevels levels; /* zeros where multigrid is not planned */
     OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */

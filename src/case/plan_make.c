@@ -216,7 +216,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
                           ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
                           ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
-    plan->solves_to_residual = watches_reaction(c) && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED));
+    plan->solves_to_residual =
+        c->path_steps > 0 || (watches_reaction(c) && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED)));
     plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
                   (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);

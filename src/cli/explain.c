@@ -235,10 +235,13 @@ static void print_future(const Future *future)
         if (forecast->work[s] > 0.0)
             print_seconds(ost_stage_label[s], forecast->seconds[s]);
     print_seconds(ost_stage_label[OST_STAGE_REST], forecast->seconds[OST_STAGE_REST]);
+    if (forecast->newton_in_all > 0.0)
+        print_seconds("Newton's method", forecast->newton_in_all);
     print_seconds("total", forecast->in_all);
     printf("  %-20s %10.0f of the linear solver\n", "iterations", forecast->iterations);
     if (forecast->newton > 0.0)
-        printf("  Each iteration of Newton's method, where rotations are large, comes on top: about %.2g s\n",
+        printf("  Each iteration of Newton's method%s comes on top: about %.2g s\n",
+               forecast->newton_in_all > 0.0 ? " beyond three a step" : ", where rotations are large,",
                forecast->newton);
 }
 
@@ -282,6 +285,7 @@ static json_t *seconds_json(const OstForecast *forecast)
     for (int s = 0; s < OST_STAGES; s++)
         json_object_set_new(seconds, ost_stage_label[s], json_real(forecast->seconds[s]));
     json_object_set_new(seconds, "in_all", json_real(forecast->in_all));
+    json_object_set_new(seconds, "newton", json_real(forecast->newton_in_all));
     json_object_set_new(seconds, "newton_iteration", json_real(forecast->newton));
     return seconds;
 }

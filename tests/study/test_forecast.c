@@ -200,6 +200,51 @@ static void cells_of_shapes_have_a_slenderness(void **state)
     ost_case_destroy(&c);
 }
 
+static OstForecast forecast_of(const char *load, const char *large_rotation, const char *more)
+{
+    char text[1024];
+    OstPlanMesh facts = {.quadratic = 0};
+    snprintf(text, sizeof text,
+             "mesh: {block: {size: [1, 1, 1], divisions: [16, 16, 16]}}\nmaterials: [{region: all, " USUAL
+             "}]\nconstraints: [{on: {boundary: xmin}, displacement: [0, 0, 0]}]\nloads: [{%s}]\n"
+             "large_rotation: %s\naccuracy: {relative_residual: 1e-8}\n%s",
+             load, large_rotation, more);
+    const OstRates rates = ost_rates_typical();
+    assert_success(read_text(text, &c));
+    ost_plan_shape_size(c, &facts.nodes, &facts.tets);
+    ost_plan_make(c, &facts, 1, &plan);
+    return forecast_with(&rates, 1);
+}
+
+/* By linear theory one solve does for all steps of a path; each has an estimate and a file. */
+static void steps_and_motions_take_more(void **state)
+{
+    static const double rates = 0.02; /* which grow a little with the memory */
+    const char *const force = "body_force: [0, 0, -1]", *const path = "path: {steps: 5}\n";
+    const OstForecast once = forecast_of(force, "off", ""), five = forecast_of(force, "off", path);
+    assert_close(five.seconds[OST_STAGE_SOLVE], once.seconds[OST_STAGE_SOLVE], rates * once.seconds[OST_STAGE_SOLVE]);
+    assert_close(five.seconds[OST_STAGE_ESTIMATE], 5.0 * once.seconds[OST_STAGE_ESTIMATE],
+                 rates * five.seconds[OST_STAGE_ESTIMATE]);
+    assert_true(five.seconds[OST_STAGE_OUTPUT] > 3.0 * once.seconds[OST_STAGE_OUTPUT]);
+
+    const OstForecast turned = forecast_of(force, "on", ""), turned_five = forecast_of(force, "on", path);
+    assert_true(turned.newton > once.seconds[OST_STAGE_SOLVE] + once.seconds[OST_STAGE_ASSEMBLY]);
+    assert_true(turned.in_all > once.in_all + 2.0 * turned.newton);
+    assert_close(turned_five.newton, turned.newton, rates * turned.newton);
+    assert_close(turned_five.newton_in_all, 5.0 * turned.newton_in_all, rates * turned_five.newton_in_all);
+    assert_close(once.newton_in_all, 0.0, 0.0);
+
+    const char *const lifted =
+        "on: {boundary: xmax}, distributing: {at: [1, 0.5, 0.5], displacement: [free, free, 0.1]}";
+    const char *const moved = "on: {boundary: xmax}, distributing: {at: [1, 0.5, 0.5], displacement: [0, 0, 0.1], "
+                              "rotation: [0, 0, 0.1]}";
+    const OstForecast one = forecast_of(lifted, "off", ""), six = forecast_of(moved, "off", "");
+    assert_close(six.seconds[OST_STAGE_SOLVE] - once.seconds[OST_STAGE_SOLVE],
+                 6.0 * (one.seconds[OST_STAGE_SOLVE] - once.seconds[OST_STAGE_SOLVE]),
+                 rates * six.seconds[OST_STAGE_SOLVE]);
+    assert_true(one.seconds[OST_STAGE_SOLVE] > 1.5 * once.seconds[OST_STAGE_SOLVE]);
+}
+
 static void few_unknowns_are_factored(void **state)
 {
     const OstForecast few = forecast("block: {size: [1, 1, 1], divisions: [4, 4, 4]}", 1, USUAL, "");
@@ -326,6 +371,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(watched_quantities_take_more),
     cmocka_unit_test(thin_walls_take_more_iterations),
     cmocka_unit_test(cells_of_shapes_have_a_slenderness),
+    cmocka_unit_test(steps_and_motions_take_more),
     cmocka_unit_test(few_unknowns_are_factored),
     cmocka_unit_test(ranks_share_the_work),
     cmocka_unit_test(rates_lie_between_those_measured),

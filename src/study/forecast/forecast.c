@@ -45,9 +45,13 @@ static const double product_operations = 600.0, quadratic_operations = 34e3, fac
 /* Strain and stress, and the error estimate, where each tet has axes of its own. */
 static const double varying_axes = 2.0;
 
-/* Of Newton's method: the stiffness of large rotations over the linear one, and an iteration's linear solve over one to
- * 1e-8. */
-static const double newton_assembly = 3.0, newton_solve = 0.6;
+/* Of Newton's method: the stiffness of large rotations over the linear one, an iteration's linear solve over one to a
+ * residual of 1e-8, as the hierarchy is that of another stiffness, and the iterations of a step that bends little. */
+static const double newton_assembly = 3.0, newton_solve = 2.0;
+static const double newton_least = 3.0;
+
+/* Of each component that moves a coupling: its solve over that of the loads. */
+static const double coupling_solve = 1.2;
 
 /* Of the potentials of gradient axes: what comes before their solve over what does for the displacement, as multigrid
  * takes the nodes of quadratic tets themselves; and their iterations, by order. */
@@ -86,15 +90,13 @@ static double bending(const OstPlan *plan, const double by_order[2])
     return 1.0 + by_order[plan->quadratic] * pow(slenderness, slender_power);
 }
 
-double ost_forecast_iterations(const OstPlan *plan)
+static double iterations_to_residual(const OstPlan *plan)
 {
     const OstSolverFacts *facts = &plan->facts;
     const double thin = plan->counts.surface / fmax(plan->counts.vertices, 1.0);
     const int q = plan->quadratic;
     if (plan->solver.first == OST_METHOD_DIRECT)
         return 1.0;
-    if (stops_early(plan))
-        return stopped_usual * bending(plan, stopped_slender) * hardness(facts, stopped_incompressible, stopped_uneven);
     const double iterations = (iterations_of[q].usual + iterations_of[q].thinner * fmin(thin, 2.0)) *
                               bending(plan, slender) *
                               hardness(facts, iterations_of[q].incompressible, iterations_of[q].uneven) *
@@ -102,10 +104,25 @@ double ost_forecast_iterations(const OstPlan *plan)
     return plan->solver.first == OST_METHOD_PLAIN ? plain_factor * iterations : iterations;
 }
 
+double ost_forecast_iterations(const OstPlan *plan)
+{
+    if (!stops_early(plan))
+        return iterations_to_residual(plan);
+    return stopped_usual * bending(plan, stopped_slender) *
+           hardness(&plan->facts, stopped_incompressible, stopped_uneven);
+}
+
 /* What is read of matrix and hierarchy in an iteration. */
 static double iteration_bytes(const OstPlan *plan)
 {
     return plan->bytes_matrix + (is_multigrid(plan) ? plan->levels.kept : plan->bytes_solver);
+}
+
+/* Of a path. By linear theory one solve does for all its steps. */
+static double steps_of(const OstCase *c, int stage)
+{
+    const int once = stage == OST_STAGE_SOLVE && c->large_rotation != OST_LARGE_ROTATION_ON;
+    return c->path_steps > 0 && !once ? c->path_steps : 1.0;
 }
 
 void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations, double work[OST_STAGES])
@@ -126,9 +143,9 @@ void ost_forecast_work(const OstCase *c, const OstPlan *plan, double iterations,
     work[OST_STAGE_ESTIMATE] = estimate->on ? dearer * (iteration_bytes(plan) + estimate->bytes) : 0.0;
     work[OST_STAGE_REST] = plan->bytes_matrix + dearer * ost_effect_state(&plan->effects, OST_EFFECT_RECOVERY)->bytes;
     work[OST_STAGE_OUTPUT] = c->output_fields != 0 ? plan->bytes_output : 0.0;
-    for (int s = 0; s < OST_STAGES; s++) /* of load cases on one stiffness */
-        if (c->load_case_count > 0 && s != OST_STAGE_MESH && s != OST_STAGE_ASSEMBLY && s != OST_STAGE_SETUP)
-            work[s] *= c->load_case_count;
+    for (int s = 0; s < OST_STAGES; s++) /* of load cases on one stiffness; of a path's steps output is counted */
+        if (s != OST_STAGE_MESH && s != OST_STAGE_ASSEMBLY && s != OST_STAGE_SETUP)
+            work[s] *= c->load_case_count > 0 ? c->load_case_count : s != OST_STAGE_OUTPUT ? steps_of(c, s) : 1.0;
 }
 
 /* Adjoint problems, which load cases share by linear theory, and what else watched quantities add to the estimate, from
@@ -169,6 +186,29 @@ static double buckling_seconds(const OstCase *c, const OstPlan *plan, const OstF
            forecast->seconds[OST_STAGE_SOLVE];
 }
 
+/* Each component that moves a coupling takes a solve, from those of the loads. */
+static double coupling_seconds(const OstCase *c, const OstForecast *forecast)
+{
+    int moved = 0;
+    for (int i = 0; i < c->load_count; i++)
+        for (int k = 0; k < 6 && c->loads[i].kind == OST_LOAD_DISTRIBUTING; k++)
+            moved += c->loads[i].moved[k];
+    const double cases = c->load_case_count > 0 ? c->load_case_count : 1.0;
+    return moved * coupling_solve / (cases * steps_of(c, OST_STAGE_SOLVE)) * forecast->seconds[OST_STAGE_SOLVE];
+}
+
+/* An iteration of Newton's method. */
+static double newton_seconds(const OstCase *c, const OstPlan *plan, const OstForecast *forecast)
+{
+    const double cases = c->load_case_count > 0 ? c->load_case_count : 1.0;
+    const double solve =
+        forecast->seconds[OST_STAGE_SOLVE] / (cases * steps_of(c, OST_STAGE_SOLVE)) / forecast->iterations;
+    if (!ost_effect_on(&plan->effects, OST_EFFECT_LARGE_ROTATION))
+        return 0.0;
+    return newton_assembly * forecast->seconds[OST_STAGE_ASSEMBLY] +
+           newton_solve * iterations_to_residual(plan) * solve;
+}
+
 void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *rates, int ranks, OstForecast *forecast)
 {
     *forecast = (OstForecast){.iterations = ost_forecast_iterations(plan), .start = rates->start};
@@ -183,12 +223,13 @@ void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *ra
     forecast->seconds[OST_STAGE_ESTIMATE] += watched_seconds(c, plan, forecast->seconds);
     for (int s = 0; s < OST_STAGES; s++)
         forecast->in_all += forecast->seconds[s];
-    if (ost_effect_on(&plan->effects, OST_EFFECT_LARGE_ROTATION))
-        forecast->newton =
-            newton_assembly * forecast->seconds[OST_STAGE_ASSEMBLY] + newton_solve * forecast->seconds[OST_STAGE_SOLVE];
+    const double of_couplings = coupling_seconds(c, forecast);
+    forecast->newton = newton_seconds(c, plan, forecast);
+    if (c->large_rotation == OST_LARGE_ROTATION_ON)
+        forecast->newton_in_all = newton_least * steps_of(c, OST_STAGE_REST) * forecast->newton;
     forecast->seconds[OST_STAGE_ASSEMBLY] += of_gradients;
-    forecast->seconds[OST_STAGE_SOLVE] += of_buckling;
-    forecast->in_all += of_gradients + of_buckling;
+    forecast->seconds[OST_STAGE_SOLVE] += of_buckling + of_couplings;
+    forecast->in_all += of_gradients + of_buckling + of_couplings + forecast->newton_in_all;
     forecast->bytes = plan->bytes_in_all + plan->bytes_company;
     forecast->with_libraries = forecast->bytes + rates->process_bytes * ranks;
 }

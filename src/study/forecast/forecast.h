@@ -14,6 +14,7 @@ typedef struct OstForecast {
     double start;          /* seconds until the program and MPI run */
     double in_all;         /* seconds */
     double newton;         /* seconds of an iteration of Newton's method; 0: large rotations are off */
+    double newton_in_all;  /* of the least iterations, where large rotations are on; they are in in_all */
     double bytes;          /* at the peak, of our arrays, over all ranks */
     double with_libraries; /* the same and the processes themselves */
 } OstForecast;
