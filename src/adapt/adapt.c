@@ -38,6 +38,10 @@ const double ost_memory_beside = 2.0;
  * out of reach. Refinement then goes on to an error that is small or for so many seconds. */
 static const double far_beyond = 100.0, small_error = 0.02, patience = 60.0;
 
+/* What the meshes of tied faces get wrong between their vertices is not in the estimate, which has 0.6 to 0.75 of a
+ * quantity's error there. */
+static const double safety_of_tied = 0.5, aim_of_tied = 0.4;
+
 /* An estimate that was measured by what potentials fell is to be within this share. */
 static const double safety_of_measured = 0.9, aim_of_measured = 0.75;
 
@@ -163,9 +167,19 @@ static double rate_of(const OstAdaption *adaption, double least_share)
     return fmin(fmax(found, least_share * smooth), 1.5 * smooth);
 }
 
-static double safety_of(const OstAdaptLevel *level)
+int ost_adaption_leaves_out_ties(const OstAdaption *adaption)
 {
-    return level->is_measured ? safety_of_measured : safety;
+    return is_of_watch(adaption) && ost_effect_on(&adaption->stage->scene->plan.effects, OST_EFFECT_TIE);
+}
+
+static double safety_of(const OstAdaption *adaption, const OstAdaptLevel *level)
+{
+    return ost_adaption_leaves_out_ties(adaption) ? safety_of_tied : level->is_measured ? safety_of_measured : safety;
+}
+
+static double aim_at(const OstAdaption *adaption, const OstAdaptLevel *level)
+{
+    return ost_adaption_leaves_out_ties(adaption) ? aim_of_tied : level->is_measured ? aim_of_measured : aim;
 }
 
 /* The largest that the error of a quantity may be, by two levels. A value with its error added is far nearer to the
@@ -183,7 +197,7 @@ static double most_relative_error(const OstAdaption *adaption, const OstInterest
 
 static int is_met(const OstAdaption *adaption, const OstAdaptLevel *level)
 {
-    return error_of(level) <= safety_of(level) * adaption->request ||
+    return error_of(level) <= safety_of(adaption, level) * adaption->request ||
            (!level->by_norm && level->most_relative_error <= safety_of_two * adaption->request);
 }
 
@@ -191,7 +205,7 @@ static int is_met(const OstAdaption *adaption, const OstAdaptLevel *level)
 static double growth_to_meet(const OstAdaption *adaption, double rate)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    return pow(error_of(last) / (safety_of(last) * adaption->request), 1.0 / rate);
+    return pow(error_of(last) / (safety_of(adaption, last) * adaption->request), 1.0 / rate);
 }
 
 static void foretell(OstAdaption *adaption)
@@ -302,8 +316,7 @@ static OstMarking aim_of(const OstAdaption *adaption, int order, double growth)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     const double error = error_of(last), power = power_of(adaption);
-    const double wanted = fmax((last->is_measured ? aim_of_measured : aim) * adaption->request,
-                               error / pow(most_reduction[order], power));
+    const double wanted = fmax(aim_at(adaption, last) * adaption->request, error / pow(most_reduction[order], power));
     const double norm = last->error.energy_norm / last->missed; /* as the tets' shares have it */
     const double square = is_of_watch(adaption) ? last->shares : norm * norm;
     const double fall = fmin(wanted / error, 1.0);

@@ -32,6 +32,9 @@ struct OstAdaption {
     int answer;          /* the number of the level that is the answer, or would be if this were the end; from 0 */
 };
 
+/* Local. Is it of a quantity of a body with tied faces, whose error the estimate knows in part? */
+int ost_adaption_leaves_out_ties(const OstAdaption *adaption);
+
 /* Local; rank 0 prints: a line for each level, and how it ended. */
 void ost_adaption_print(const OstAdaption *adaption);
 

@@ -94,9 +94,10 @@ void ost_adaption_print(const OstAdaption *adaption)
     }
     ost_adaption_words(adaption, words);
     if (adaption->end == OST_ADAPT_MET)
-        printf("  request          %.3g %% asked for, about %.2g %% reached, of %s\n", 100.0 * adaption->request,
+        printf("  request          %.3g %% asked for, about %.2g %% reached, of %s%s\n", 100.0 * adaption->request,
                100.0 * last->relative_error,
-               adaption->watch && !last->by_norm ? adaption->watch->name : "the energy norm");
+               adaption->watch && !last->by_norm ? adaption->watch->name : "the energy norm",
+               ost_adaption_leaves_out_ties(adaption) ? "; what tied faces get wrong comes on top" : "");
     else
         printf("  WARNING          %s\n", words);
 }
