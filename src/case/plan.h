@@ -137,6 +137,9 @@ void ost_plan_add_facts(OstContext *ctx, const OstOrthotropic *k, OstModuli *mod
 /* Local. Warns of fields that the output lists by name and will not hold. */
 void ost_warn_absent_fields(const OstCase *c, const OstEffects *effects);
 
+/* Local. Do nodes of faces follow others, or a point? */
+int ost_plan_links(const OstPlan *plan);
+
 /* Local. Is a field among those to be written? */
 int ost_plan_writes(const OstCase *c, OstOutputFieldBit field);
 

@@ -141,6 +141,24 @@ static int count_adjoints(const OstCase *c, int mixed)
  * 1.5 to 2.0 at 100, 2.8 to 5.6 at 1000, 7.6 at 1e4, 22 at 1e5, 67 to 97 at 1e6. */
 static const double usual_crossing = 0.07;
 
+/* Cells of a block lie along x, y and z: do stiff directions that are fixed lie across? By more than so much. */
+static const double along = 0.995;
+
+static int crosses_cells(const OstCase *c)
+{
+    int crosses = 0;
+    for (int m = 0; m < c->material_count && c->mesh_kind == OST_MESH_BLOCK; m++) {
+        const OstAxesSpec *axes = &c->materials[m].axes;
+        const int is_fixed =
+            axes->kind == OST_AXES_FIXED || axes->kind == OST_AXES_EULER || axes->kind == OST_AXES_QUATERNION;
+        for (int i = 0; i < 3 && is_fixed && !c->materials[m].material.isotropic; i++) {
+            const double *e = axes->fixed + 3 * i;
+            crosses |= !(fmax(fabs(e[0]), fmax(fabs(e[1]), fabs(e[2]))) > along);
+        }
+    }
+    return crosses;
+}
+
 /* What the solver measures of a shape's cells, whose diagonals are longer than they are. */
 static const double of_diagonals = 1.35;
 
@@ -191,6 +209,12 @@ static void state_solver_facts(const OstCase *c, const OstPlanMesh *mesh, const 
         facts->slenderness = of_diagonals * plan->slenderness;
 }
 
+int ost_plan_links(const OstPlan *plan)
+{
+    return ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) || ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
+           ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
+}
+
 void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan *plan)
 {
     const double surface = mesh->surface > 0.0 ? mesh->surface : ost_plan_shape_surface(c);
@@ -204,7 +228,7 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     OstEffectFacts facts = state_facts(c, mesh, &plan->counts, ranks);
     state_solver_facts(c, mesh, plan, &plan->facts);
     ost_plan_materials(c, mesh, &facts, &plan->facts);
-    if (mesh->quadratic && c->mesh_kind == OST_MESH_FILE && plan->facts.anisotropy > 1.0)
+    if (mesh->quadratic && (c->mesh_kind == OST_MESH_FILE || crosses_cells(c)) && plan->facts.anisotropy > 1.0)
         plan->facts.misalignment = 1.0 + usual_crossing * sqrt(plan->facts.anisotropy);
     count_recovered(c, &facts);
     if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
@@ -213,11 +237,9 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);
     ost_effects_find(&facts, &plan->effects);
-    const int is_linked = ost_effect_on(&plan->effects, OST_EFFECT_RIGID_FACE) ||
-                          ost_effect_on(&plan->effects, OST_EFFECT_TIE) ||
-                          ost_effect_on(&plan->effects, OST_EFFECT_PERIODIC);
     plan->solves_to_residual =
-        c->path_steps > 0 || (watches_reaction(c) && (is_linked || ost_effect_on(&plan->effects, OST_EFFECT_MIXED)));
+        c->path_steps > 0 ||
+        (watches_reaction(c) && (ost_plan_links(plan) || ost_effect_on(&plan->effects, OST_EFFECT_MIXED)));
     plan->bends = c->mesh_kind == OST_MESH_BLOCK || ost_effect_on(&plan->effects, OST_EFFECT_POINT_FORCE) ||
                   (c->mesh_kind == OST_MESH_SECTOR && ost_effect_on(&plan->effects, OST_EFFECT_BODY_FORCE));
     ost_effects_name_accounts(c->ctx);

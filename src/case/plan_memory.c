@@ -230,6 +230,8 @@ void ost_plan_memory(const OstCase *c, int ranks, OstPlan *plan)
     const double kept = plan->bytes_mesh + plan->bytes_effects - estimate - recovery - potentials;
     plan->bytes_in_all = fmax(kept + potentials, kept + plan->bytes_matrix +
                                                      fmax(fmax(plan->bytes_solver, hierarchy + estimate), recovery));
+    if (ost_plan_links(plan)) /* the stiffness of all nodes is kept beside that of what they follow */
+        plan->bytes_in_all = fmax(plan->bytes_in_all, kept + 2.0 * plan->bytes_matrix + plan->bytes_solver);
     plan->bytes_company = company_bytes(c, plan);
     plan->bytes_output = output_bytes(c, plan) * (c->path_steps > 0 ? c->path_steps : 1);
 }
