@@ -218,10 +218,9 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 {
     if (scene->c->free_body)
         return "a free body has none";
-    const int follows = result->formulation != OST_FORMULATION_LINEAR &&
-                        ost_effect_on(&scene->plan.effects, OST_EFFECT_FOLLOWER_PRESSURE);
-    return follows ? "its adjoint problem was not solved, or a pressure that follows makes it unsymmetric"
-                   : "its adjoint problem was not solved";
+    return result->formulation != OST_FORMULATION_LINEAR && !result->conservative
+               ? "a pressure that follows a free rim makes its adjoint problem unsymmetric"
+               : "its adjoint problem was not solved";
 }
 
 /* Why there is no error, in words. */
