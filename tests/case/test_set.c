@@ -138,7 +138,7 @@ static void wrong_settings_are_refused_in_words(void **state)
         "materials.wod.E1=3", OST_INVALID_USAGE,
         "materials has no entry 'wod'; did you mean 'wood'?; it has 2, numbered from 0, of these names: wood, rubber");
     refuse("loads.2.pressure=3", OST_INVALID_USAGE,
-           "loads has no entry '2'; it has 2, numbered from 0; one more can be added, next to the last and as a whole");
+           "loads has no entry '2'; it has 2, numbered from 0; number 2 can be added, as a whole");
     refuse("loads.3={gravity: [0, 0, 1]}", OST_INVALID_USAGE, "loads has no entry '3'; it has 2, numbered from 0");
     refuse("loads.0.total_force.3=1", OST_INVALID_INPUT, "found a list of 4, expected a list of 3 numbers");
     refuse("title=my bar: a", OST_INVALID_USAGE,

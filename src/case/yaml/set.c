@@ -203,7 +203,7 @@ static OstStatus raise_no_entry(const Setting *setting, const OstYamlNode *list)
 {
     enum { MOST_NAMES = 20 };
     const char *names[MOST_NAMES];
-    char place[OST_YAML_PLACE_SIZE], text[OST_YAML_LIST_SIZE], found[OST_YAML_LIST_SIZE + 512];
+    char place[OST_YAML_PLACE_SIZE], text[OST_YAML_LIST_SIZE], found[OST_YAML_LIST_SIZE + 512], next[64] = "";
     int count = 0;
     const OstYamlNode *item = list + 1;
     for (uint32_t i = 0; i < list->value; i++, item = ost_yaml_next(setting->yaml, item)) {
@@ -216,11 +216,11 @@ static OstStatus raise_no_entry(const Setting *setting, const OstYamlNode *list)
     ost_yaml_name_list(names, count, text, sizeof text);
     const char *nearest = ost_nearest_word(setting->step, names, count);
     ost_yaml_place(setting->yaml, list, place, sizeof place);
+    if (isdigit((unsigned char)setting->step[0]))
+        snprintf(next, sizeof next, "; number %u can be added, as a whole", (unsigned)list->value);
     snprintf(found, sizeof found, "%s has no entry '%s'%s%s%s; it has %u, numbered from 0%s%s%s", place, setting->step,
              nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "", (unsigned)list->value,
-             count > 0 ? ", of these names: " : "", text,
-             isdigit((unsigned char)setting->step[0]) ? "; one more can be added, next to the last and as a whole"
-                                                      : "");
+             count > 0 ? ", of these names: " : "", text, next);
     return raise_setting(setting, found);
 }
 
