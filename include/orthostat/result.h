@@ -172,6 +172,7 @@ typedef struct OstWatchedValue {
     double place[3];
     const char *why;   /* is the error not known although the estimate was asked for; NULL else */
     const char *exact; /* why the value has no error of the mesh, in words; NULL: it has one, or it is not known */
+    double terms;      /* of a reaction: the sum of the sizes of its nodes' forces, or moments; else 0 */
 } OstWatchedValue;
 
 /* Collective. Writes the file of a result, with those of the fields (bits of OstOutputFieldBit) that the result has or

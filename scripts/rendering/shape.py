@@ -2,8 +2,9 @@
 """The deformed shape with its edges, loads, supports and fibres, as pixels."""
 import numpy as np
 from matplotlib.colors import to_rgb
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkPolyDataNormals
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkFiltersHybrid import vtkPolyDataSilhouette
@@ -18,12 +19,15 @@ from .view import load_arrows, set_camera
 
 
 def surface_of(grid):
-    """Its triangles; the cell array 'cell' says of which tet."""
+    """Its triangles; the cell array 'cell' says of which tet. (Of quadratic tets VTK 9.1 itself would say of which face.)"""
+    numbers = numpy_to_vtk(np.arange(grid.GetNumberOfCells()), deep=True)
+    numbers.SetName("cell")
+    numbered = vtkUnstructuredGrid()
+    numbered.ShallowCopy(grid)
+    numbered.GetCellData().AddArray(numbers)
     surface = vtkDataSetSurfaceFilter()
-    surface.SetInputData(grid)
+    surface.SetInputData(numbered)
     surface.SetNonlinearSubdivisionLevel(1)
-    surface.PassThroughCellIdsOn()
-    surface.SetOriginalCellIdsName("cell")
     surface.Update()
     return surface.GetOutput()
 

@@ -20,7 +20,7 @@ static const double most_reduction[3] = {0.0, 2.0, 4.0};
 
 /* Linear tets are kept where no more than this is missing: refined, they are cheaper than quadratic ones then, which
  * have six times the unknowns on the same mesh, and mostly a quarter of the error. */
-static const double linear_is_near = 1.5;
+static const double linear_is_near = 1.5, growth_of_order = 6.0;
 
 /* A level has at most about this many times the tets: what is marked on a coarse mesh is marked widely. */
 static const double most_growth = 4.0;
@@ -30,8 +30,8 @@ static const double most_growth = 4.0;
  * what is finer than it need be. The third: tets made over those expected of marks, as neighbours are cut, too. */
 static const double least_growth = 1.15, worthwhile_growth[2] = {1.25, 1.6}, made_over_marked = 1.5;
 
-/* Seconds grow a little faster than unknowns. */
-static const double seconds_power = 1.1;
+/* Seconds grow a little faster than unknowns; at a limit, as much faster as the last levels did, up to the second. */
+static const double seconds_power = 1.1, most_seconds_power = 2.0;
 const double ost_memory_beside = 2.0;
 
 /* A request that would take so many times the memory there is, even if the error fell as that of a smooth solution, is
@@ -72,16 +72,27 @@ static double seconds_to_end(const OstAdaption *adaption)
     return (1.0 + reactions) * adaption->level[adaption->count - 1].seconds;
 }
 
-/* By how much the limits allow the next mesh to grow, and which of them is the narrower. */
+/* By the last two levels. */
+static double power_of_seconds(const OstAdaption *adaption)
+{
+    const OstAdaptLevel *last = &adaption->level[adaption->count - 1], *before = last - 1;
+    if (adaption->count < 2 || !((double)last->unknowns > least_growth * (double)before->unknowns))
+        return seconds_power;
+    const double found = log(last->seconds / before->seconds) / log((double)last->unknowns / (double)before->unknowns);
+    return fmin(fmax(found, seconds_power), most_seconds_power);
+}
+
+/* By how much the limits allow the next mesh to grow, and which of them is the narrower. What is marked grows less than
+ * what is made. */
 static OstStatus allowed_growth(const OstAdaption *adaption, double start, double *growth, OstAdaptEnd *end)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
     double elapsed = 0.0;
     OST_TRY(seconds_since(adaption->ctx, start, &elapsed));
-    const double by_time =
-        pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(seconds_to_end(adaption), 1e-6), 1.0 / seconds_power);
+    const double by_time = pow(fmax(adaption->limits.seconds - elapsed, 0.0) / fmax(seconds_to_end(adaption), 1e-6),
+                               1.0 / power_of_seconds(adaption));
     const double by_memory = adaption->limits.bytes / (ost_memory_beside * last->bytes);
-    *growth = fmin(by_time, by_memory);
+    *growth = fmin(by_time, by_memory) / adaption->overshoot;
     *end = by_time < by_memory ? OST_ADAPT_OUT_OF_TIME : OST_ADAPT_OUT_OF_MEMORY;
     return OST_SUCCESS;
 }
@@ -295,11 +306,12 @@ static int is_far(const OstAdaption *adaption)
     return error_of(last) > pow(linear_is_near, power_of(adaption)) * adaption->request;
 }
 
-/* Quadratic tets come where much is missing: first without cutting any. */
-static int next_order(const OstAdaption *adaption, const OstCase *c)
+/* Quadratic tets come where much is missing: first without cutting any. Where limits leave no room for them, linear
+ * ones are refined. */
+static int next_order(const OstAdaption *adaption, const OstCase *c, double growth)
 {
     const OstAdaptLevel *last = &adaption->level[adaption->count - 1];
-    return last->order == 2 || (c->order == 0 && is_far(adaption)) ? 2 : 1;
+    return last->order == 2 || (c->order == 0 && is_far(adaption) && growth >= growth_of_order) ? 2 : 1;
 }
 
 static void warn_of_order(const OstAdaption *adaption, const OstCase *c)
@@ -337,16 +349,17 @@ static OstStatus step(OstAdaption *adaption, const OstCase *c, OstStage *stage, 
                       int *ended)
 {
     const double level_start = ost_seconds();
-    const int order = next_order(adaption, c);
     double growth = 0.0;
     OST_TRY(allowed_growth(adaption, start, &growth, &adaption->end));
     *ended = growth < least_growth;
     if (*ended)
         return OST_SUCCESS;
-    OstMarking marking = aim_of(adaption, order, growth);
+    OstMarking marking = aim_of(adaption, next_order(adaption, c, growth), growth);
     OST_TRY(ost_stage_refine(stage, &marking, next));
-    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected, made %lld", marking.expected_tets,
-            (long long)next->scene->mesh->global_tets);
+    const double made = (double)next->scene->mesh->global_tets;
+    if (made > (double)adaption->level[adaption->count - 1].tets)
+        adaption->overshoot = fmax(made / marking.expected_tets, 1.0);
+    ost_log(adaption->ctx, OST_LOG_VERBOSE, "marked: about %.0f tets expected, made %.0f", marking.expected_tets, made);
     OST_TRY(ost_stage_solve(next));
     return note_level(adaption, next, level_start);
 }
@@ -479,6 +492,7 @@ OstStatus ost_adapt(const OstCase *c, const OstAdaptLimits *limits, OstAdaption 
     (*adaption)->request = c->relative_error;
     (*adaption)->watch = c->interest > 0 ? &c->watches[c->interest - 1] : NULL;
     (*adaption)->limits = *limits;
+    (*adaption)->overshoot = made_over_marked;
     return adapt(*adaption, c);
 }
 

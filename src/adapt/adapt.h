@@ -17,6 +17,7 @@ struct OstAdaption {
     double request;        /* relative error */
     const OstWatch *watch; /* of this quantity; NULL: in the norm of the energy */
     OstAdaptLimits limits;
+    double overshoot; /* tets that the last cuts made over those that were expected of the marks */
     int count;
     OstAdaptLevel level[OST_MOST_ADAPT_LEVELS];
     OstAdaptEnd end;

@@ -59,10 +59,11 @@ static OstStatus check_density(const OstYaml *yaml, const OstCase *c)
         return OST_SUCCESS;
     for (int i = 0; i < c->load_count; i++)
         if (c->loads[i].kind == OST_LOAD_GRAVITY || c->loads[i].kind == OST_LOAD_CENTRIFUGAL)
-            return OST_RAISE(
-                yaml->ctx, OST_INVALID_INPUT, "%s:%d: %s acts on mass, but no material has a density; add one%s",
-                yaml->path, c->loads[i].line, c->loads[i].kind == OST_LOAD_GRAVITY ? "gravity" : "a centrifugal load",
-                c->loads[i].kind == OST_LOAD_GRAVITY ? ", or state the force per volume as body_force" : "");
+            return OST_RAISE(yaml->ctx, OST_INVALID_INPUT,
+                             "%s:%d: %s acts on mass, but no material has a density above 0; state one%s", yaml->path,
+                             c->loads[i].line, c->loads[i].kind == OST_LOAD_GRAVITY ? "gravity" : "a centrifugal load",
+                             c->loads[i].kind == OST_LOAD_GRAVITY ? ", or state the force per volume as body_force"
+                                                                  : "");
     return OST_SUCCESS;
 }
 

@@ -91,9 +91,9 @@ int ost_loads_need_mesh(const OstCase *c);
  * ost_loads_need_mesh is 0. Raises as ost_select_faces does. */
 OstStatus ost_load_effects(const OstCase *c, const OstMesh *mesh, OstEffect *effect);
 
-/* Local. Does anything act on the body: a load, a prescribed displacement that is not zero, or an
- * eigenstrain? */
-int ost_plan_acts(const OstCase *c, const OstPlan *plan);
+/* Local; rank 0 warns where nothing acts on the body: no load, no prescribed displacement and no eigenstrain.
+ * `load_case`: its name, or NULL. */
+void ost_plan_warn_idle(const OstCase *c, const OstPlan *plan, const char *load_case);
 
 /* Local. Nodes and tets of a shape, from its divisions; 0 and 0 for a mesh file. Counts are limited to OST_PLAN_MOST.
  */

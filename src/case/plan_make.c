@@ -262,8 +262,12 @@ OstStatus ost_plan_check_size(const OstCase *c, OstGlobal nodes)
                      c->path, nodes == OST_PLAN_MOST ? "more than " : "", (long long)nodes, (long long)most);
 }
 
-int ost_plan_acts(const OstCase *c, const OstPlan *plan)
+void ost_plan_warn_idle(const OstCase *c, const OstPlan *plan, const char *load_case)
 {
-    return c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
-           ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN);
+    if (c->load_count > 0 || ost_effect_on(&plan->effects, OST_EFFECT_PRESCRIBED_DISPLACEMENT) ||
+        ost_effect_on(&plan->effects, OST_EFFECT_EIGENSTRAIN))
+        return;
+    ost_warn(c->ctx,
+             "%s: nothing acts on the body%s%s%s: there is no load, no prescribed displacement and no eigenstrain",
+             c->path, load_case ? " in load case '" : "", load_case ? load_case : "", load_case ? "'" : "");
 }

@@ -122,9 +122,7 @@ static void look_for_oddities(const OstScene *scene)
     const OstCase *c = scene->c;
     if (is_unsupported(c))
         ost_warn(ctx, "%s: there is no constraint; solve will refuse a body that can move freely", c->path);
-    if (!ost_plan_acts(c, &scene->plan))
-        ost_warn(ctx, "%s: nothing acts on the body: there is no load, no prescribed displacement and no eigenstrain",
-                 c->path);
+    ost_plan_warn_idle(c, &scene->plan, NULL);
     for (int i = 0; i < c->material_count; i++)
         if (c->materials[i].axes.kind != OST_AXES_NONE && !ost_effect_on(&scene->plan.effects, OST_EFFECT_ORTHOTROPY)) {
             ost_warn(ctx, "%s: axes are set, but every material is isotropic, so they have no effect", c->path);

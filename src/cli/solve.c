@@ -158,6 +158,8 @@ static OstStatus solve_accurately(Run *run)
     const OstStatus status = ost_adapt(run->c, &run->limits, &run->adaption);
     run->scene = run->adaption ? ost_adaption_scene(run->adaption) : NULL;
     run->result = run->adaption ? ost_adaption_result(run->adaption) : NULL;
+    if (run->scene)
+        ost_plan_warn_idle(run->c, &run->scene->plan, NULL);
     if (status != OST_SUCCESS)
         return keep_result(run, status);
     OST_TRY(write_fields(run));
@@ -192,8 +194,7 @@ static OstStatus solve_as_given(Run *run)
     OST_TRY(ost_scene_create(c, &run->scene));
     OST_TRY(ost_forecast_show(run->scene));
     OST_TRY(ost_watch_check(run->scene));
-    if (!ost_plan_acts(c, &run->scene->plan))
-        ost_warn(c->ctx, "%s: nothing acts on the body: there is no load and no prescribed displacement", c->path);
+    ost_plan_warn_idle(c, &run->scene->plan, NULL);
     return c->path_steps > 0 ? solve_path(run) : solve_once(run);
 }
 

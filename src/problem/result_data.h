@@ -56,6 +56,7 @@ struct OstResult {
     const OstMaterialField *field;
     double t;                     /* factor of what grows with t */
     OstFormulation formulation;   /* by which strain follows from the displacement */
+    int conservative;             /* are the loads the gradient of a work function? */
     double *displacement;         /* 3 × node_count */
     double *pressure;             /* 4 × tet_count: of a mixed form, at the tets' vertices; else NULL */
     OstMaterialField at_pressure; /* with a pressure: the field that has it, which `field` then is */

@@ -223,12 +223,28 @@ static OstStatus check_ranks(const OstCase *c, const OstMeshChunk *chunk)
         c->path, ranks, (long long)chunk->global_nodes, (long long)chunk->global_nodes);
 }
 
+/* A file may bring axes that a case leaves; a program that gives them wants them used. */
+static OstStatus warn_of_unused_axes(const OstCase *c, const OstMeshChunk *chunk)
+{
+    int unused = chunk->of_arrays && chunk->tet_axes; /* a rank without tets has none */
+    for (int m = 0; m < c->material_count; m++)
+        unused &= c->materials[m].axes.kind != OST_AXES_CELLS || c->materials[m].axes.cells_file;
+    OST_TRY(ost_max_ints(c->ctx, 1, &unused));
+    if (unused)
+        ost_warn(
+            c->ctx,
+            "%s: the mesh has material axes, and no material uses them: a material with 'axes: {cells: mesh}' does",
+            c->path);
+    return OST_SUCCESS;
+}
+
 OstStatus ost_scene_distribute(const OstCase *c, const OstFileMaterials *from_file, OstMeshChunk **chunk,
                                OstMesh **mesh, OstSceneMaterials *materials)
 {
     const OstShapeSurface surface = ost_scene_surface(c);
     *mesh = NULL;
     OstStatus status = check_ranks(c, *chunk);
+    OST_THEN(warn_of_unused_axes(c, *chunk));
     OST_THEN(ost_scene_materials(c, &(*chunk)->regions, from_file, materials));
     (*chunk)->straighten = c->straighten;
     (*chunk)->only_vertices = c->order == 1 && c->refinement == 0;

@@ -74,6 +74,7 @@ OstStatus ost_analysis_conclude(const OstAnalysis *analysis, double t, OstStatus
     state.field = result->field;
     OST_TRY(ost_result_take_load(result, analysis->problem, t));
     result->formulation = ost_problem_formulation(analysis->problem);
+    result->conservative = analysis->problem->conservative;
     OST_TRY(ost_agree(ctx, ost_result_prepare_means(result, fields, &means)));
     OST_TRY(ost_guard_after(&state, analysis->options.relative_residual, solved_for, means, result));
     if (analysis->problem->automatic && !result->newton.used && ost_buckling_ends(result))

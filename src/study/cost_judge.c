@@ -18,10 +18,21 @@ static double scale_of(const OstWatched *watched)
     return watched->scale > no_sum * watched->terms ? watched->scale : watched->terms;
 }
 
+/* The largest displacement has no watch. */
+static int is_positive(const OstWatch *watch)
+{
+    if (!watch || watch->kind == OST_WATCH_STRAIN_ENERGY || watch->kind == OST_WATCH_LOAD_FACTOR)
+        return 1;
+    return watch->component == (watch->kind == OST_WATCH_STRESS ? (int)OST_STRESS_MEASURE_VON_MISES : OST_WATCH_LENGTH);
+}
+
 /* A quantity by elements of one order: each refinement at its tightest tolerance. */
 static OstAnswers collect(const OstCost *cost, int quantity, int order, int *refinement, double *value)
 {
-    OstAnswers answers = {.order = order, .refinement = refinement, .value = value};
+    OstAnswers answers = {.order = order,
+                          .refinement = refinement,
+                          .value = value,
+                          .positive = is_positive(cost->quantity[quantity].watch)};
     for (int i = 0; i < cost->run_count; i++) {
         const OstCostRun *run = &cost->run[i];
         if (run->state != OST_COST_DONE || !ost_cost_is_plain(run) || run->order != order)

@@ -156,7 +156,7 @@ static void print_out_of_reach(const OstCost *cost, int quantity)
     if (isinf(best))
         printf("no run reaches it: the accuracy of the reference is not known\n");
     else if (best <= uncertainty)
-        printf("no run is known to reach it: the reference is good to %s alone; --refine more\n", number);
+        printf("no run is known to reach it: the reference is good to %s alone; give more --refinements\n", number);
     else
         printf("no run reaches it: the best has %s\n", number);
 }

@@ -99,7 +99,7 @@ static int take_limit(const OstAnswers *a, OstCostReference *reference)
     if (!ost_extrapolate(h, q, &found))
         return 0;
     reference->rate = found.rate;
-    if (!is_sensible(a, found.rate))
+    if (!is_sensible(a, found.rate) || (a->positive && found.limit < 0.0))
         return 0;
     const double moved = fabs(found.limit - q[2]);
     set_value(reference, OST_REFERENCE_EXTRAPOLATED, found.limit, moved + a->noise * fabs(q[2]), a->scale);

@@ -45,6 +45,7 @@ typedef struct OstAnswers {
     const double *value;
     double noise; /* relative: error that the solver's tolerance may leave */
     double scale;
+    int positive; /* can it not be below 0? Then neither can its limit */
 } OstAnswers;
 
 /* Local. The factor by which halving the size of the elements reduces an error at best. */

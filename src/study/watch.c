@@ -218,10 +218,9 @@ static const char *why_no_reaction(const OstScene *scene, const OstResult *resul
 {
     if (scene->c->free_body)
         return "a free body has none";
-    const int follows = result->formulation != OST_FORMULATION_LINEAR &&
-                        ost_effect_on(&scene->plan.effects, OST_EFFECT_FOLLOWER_PRESSURE);
-    return follows ? "its adjoint problem was not solved, or a pressure that follows makes it unsymmetric"
-                   : "its adjoint problem was not solved";
+    return result->formulation != OST_FORMULATION_LINEAR && !result->conservative
+               ? "a pressure that follows a free rim makes its adjoint problem unsymmetric"
+               : "its adjoint problem was not solved";
 }
 
 /* Why there is no error, in words. */
@@ -286,6 +285,7 @@ static const char *find_exact(const OstWatch *watch, const OstWatched *watched)
 OstStatus ost_watch_evaluate(const OstScene *scene, const OstResult *result, const OstWatch *watch, OstWatched *watched)
 {
     watched->placed = 0;
+    watched->terms = 0.0;
     watched->exact = NULL;
     OST_TRY(evaluate(scene, result, watch, watched));
     for (int i = 0; i < 3 && !watched->placed; i++)
@@ -446,9 +446,16 @@ OstStatus ost_watch_evaluate_all(const OstScene *scene, const OstResult *result,
                                          watched.placed,
                                          {watched.place[0], watched.place[1], watched.place[2]},
                                          watched.why,
-                                         watched.exact};
+                                         watched.exact,
+                                         watched.terms};
     }
     return OST_SUCCESS;
+}
+
+/* A sum that cancels is 0 but for rounding. */
+static double without_rounding(const OstWatchedValue *watched)
+{
+    return fabs(watched->value) < 1e-12 * watched->terms ? 0.0 : watched->value;
 }
 
 void ost_watch_print(const OstWatchedValue *values, int count)
@@ -456,7 +463,7 @@ void ost_watch_print(const OstWatchedValue *values, int count)
     for (int w = 0; w < count; w++) {
         const double expected = values[w].expected, error = fabs(values[w].error);
         char share[24];
-        printf("%-22s %.10g", values[w].name, values[w].value);
+        printf("%-22s %.10g", values[w].name, without_rounding(&values[w]));
         if (values[w].exact)
             printf(", %s", values[w].exact);
         else if (!isnan(error))

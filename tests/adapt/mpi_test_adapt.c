@@ -251,6 +251,22 @@ static void limits_leave_the_best_answer_and_the_price_of_the_rest(void **state)
     }
 }
 
+/* Cuts go on into neighbours, and quadratic tets have six times the unknowns: both must fit. By memory, as seconds
+ * differ from run to run. */
+static void limits_are_kept(void **state)
+{
+    static const double bytes[3] = {2e6, 6e6, 2e7};
+    for (int i = 0; i < 3; i++) {
+        const OstAdaptLimits limits = {INFINITY, bytes[i]};
+        OstCase *c = NULL;
+        ost_ledger_restart_peak(ctx);
+        OstAdaption *adaption = adapt(BEAM "accuracy: {relative_error: 0.01}\n", &limits, &c);
+        assert_int_equal(adaption->end, OST_ADAPT_OUT_OF_MEMORY);
+        assert_true(ost_memory_beside * last_of(adaption)->bytes <= 1.1 * limits.bytes);
+        end(&adaption, &c);
+    }
+}
+
 static void what_no_memory_allows_ends_early(void **state)
 {
     char words[OST_LONGEST_ADAPT_WORDS];
@@ -311,6 +327,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(levels_start_from_the_last_answer),
     cmocka_unit_test(the_order_of_the_case_is_kept),
     cmocka_unit_test(limits_leave_the_best_answer_and_the_price_of_the_rest),
+    cmocka_unit_test(limits_are_kept),
     cmocka_unit_test(what_no_memory_allows_ends_early),
     cmocka_unit_test(marks_make_shares_equal),
     cmocka_unit_test(what_levels_gain_measures_the_estimate),

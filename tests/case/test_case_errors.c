@@ -259,7 +259,11 @@ static void bad_conditions_are_refused(void **state)
                    "4:43: 'share' belongs to total_force, moment and distributing, not to 'pressure'");
     assert_refused(LOAD("on: {all: true}, pressure: 1, region: a"),
                    "4:44: 'region' belongs to gravity, body_force and centrifugal; 'pressure' acts where 'on' says");
-    assert_refused(LOAD("gravity: [0, 0, -9.81]"), "4: gravity acts on mass, but no material has a density; ...");
+    assert_refused(LOAD("gravity: [0, 0, -9.81]"),
+                   "4: gravity acts on mass, but no material has a density above 0; state one, or state ...");
+    assert_refused(CUBE "materials: [{region: all, youngs_modulus: 1, poissons_ratio: 0.3, density: 0}]\n"
+                        "loads:\n  - {gravity: [0, 0, -9.81]}\n",
+                   "4: gravity acts on mass, but no material has a density above 0; state one, or state ...");
 }
 
 static void what_no_version_does_is_refused_in_words(void **state)

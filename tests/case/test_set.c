@@ -91,6 +91,10 @@ static void what_is_not_there_is_added(void **state)
     set("watch.end.displacement={nearest: [4, 0, 0]}");
     assert_int_equal(c->watch_count, 1);
     assert_close(c->watches[0].on.point[0], 4.0, 0.0);
+    set("constraints.1={on: {boundary: xmax}, slide: [0, 0, 1]}");
+    assert_int_equal(c->constraint_count, 2);
+    assert_close(c->constraints[0].displacement[0], 0.0, 0.0);
+    assert_int_equal(c->constraints[1].kind, OST_CONSTRAIN_SLIDE);
     set("output.file=a \"b\".vtkhdf");
     assert_string_equal(c->output_file, "a \"b\".vtkhdf");
     ost_case_destroy(&c);
@@ -133,7 +137,12 @@ static void wrong_settings_are_refused_in_words(void **state)
     refuse(
         "materials.wod.E1=3", OST_INVALID_USAGE,
         "materials has no entry 'wod'; did you mean 'wood'?; it has 2, numbered from 0, of these names: wood, rubber");
-    refuse("loads.2.pressure=3", OST_INVALID_USAGE, "loads has no entry '2'; it has 2, numbered from 0");
+    refuse("loads.2.pressure=3", OST_INVALID_USAGE,
+           "loads has no entry '2'; it has 2, numbered from 0; number 2 can be added, as a whole");
+    refuse("loads.3={gravity: [0, 0, 1]}", OST_INVALID_USAGE, "loads has no entry '3'; it has 2, numbered from 0");
+    refuse("loads.0.total_force.3=1", OST_INVALID_INPUT, "found a list of 4, expected a list of 3 numbers");
+    refuse("title=my bar: a", OST_INVALID_USAGE,
+           "cannot set title=my bar: a: the value is not YAML beside other keys; put a text in quotes");
     refuse("loads.1.pressure.x=3", OST_INVALID_USAGE,
            "loads[1].pressure is the one value '5', which has no part 'x'; set the whole of it");
     refuse("loads.1.presure=3", OST_INVALID_INPUT,

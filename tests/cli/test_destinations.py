@@ -205,6 +205,9 @@ def a_body_at_rest_is_pointed_out(folder):
     write(folder, "rest.yaml", CASE[:CASE.index("loads:")])
     finished = run("solve", "rest.yaml", folder=folder)
     check(finished.exit_code == 0 and finished.errors.count("nothing acts on the body") == 1, f"{finished.errors}")
+    for cases, words in (("", "nothing acts on the body:"), (", cases=[{name: one}]", "nothing acts on the body in load case 'one'")):
+        asked = run("solve", "rest.yaml", "--set", "accuracy.relative_error=0.1", *(["--set", cases[2:]] if cases else []), folder=folder)
+        check(asked.exit_code == 0 and asked.errors.count(words) == 1, f"an accuracy asked for: {asked.errors}")
     found = json.loads(run("check", "-q", "rest.yaml", "--json", folder=folder).output)
     check(len(found["warnings"]) == 1 and "nothing acts on the body" in found["warnings"][0], f"{found}")
     write(folder, "moved.yaml", CASE[:CASE.index("loads:")] +

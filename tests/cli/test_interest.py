@@ -180,7 +180,7 @@ check(done.exit_code == 0 and report["unknowns"] < 5000 and abs(report["watched"
 # Nor that of a reaction where a pressure follows a free rim.
 text = CASE.format(accuracy="{relative_error: 0.1, of: pull}", refine=1, order=1, large="on", **PULLED)
 done, _, _ = solve(text.replace("xmax}, total_force: [0, 0, 0.1]", "zmax}, pressure: 0.01, follows: true"), folder=folder)
-check(done.exit_code == 1 and "cannot be estimated" in done.errors and "a pressure that follows" in done.output, done.errors)
+check(done.exit_code == 1 and "cannot be estimated" in done.errors and "not known: a pressure that follows a free rim makes its" in done.output, done.errors)
 
 for wrong, said, scene in (("{of: nobody}", "not watched", PULLED), ("{of: [tip]}", "expected a text", PULLED),
                            ("{of: pull}", "the error of 'pull' is not known", coupled)):

@@ -83,6 +83,17 @@ for name, text, tets, regions in (
     check((held["tets"], [r["name"] for r in held["regions"]]) == (tets, regions), f"{name}: {held}")
     boundaries = {b["name"] for b in held["boundaries"]}
     check("hypermesh" not in name or boundaries == {"surface-5", "held", "set-4"}, f"{name}: {boundaries}")
+    check(name != "meshio.bdf" or boundaries == {"surface-0"}, f"{name}: {boundaries}")
+
+# meshio calls quadratic solids CTETRA_ and the like.
+CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
+for kind, corners, edges in (
+        ("tetra10", CUBE[[0, 1, 3, 4]], ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))),
+        ("hexahedron20", CUBE, ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)))):
+    points = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in edges]])
+    meshio.write(os.path.join(folder, "quadratic.bdf"), meshio.Mesh(points, [(kind, [list(range(len(points)))])]))
+    done = run("mesh", "quadratic.bdf", "--json", "-", folder=folder)
+    check(done.exit_code == 0 and abs(json.loads(done.output)["volume"] - (1 if kind[0] == "h" else 1 / 6)) < 1e-7, f"{kind}: {done.errors}")
 
 # Nodes in coordinate systems, each of another: at (10, 0, 0), and one along each axis from there.
 SYSTEMS = """CORD2C,2,1,,,,,,1.

@@ -77,6 +77,11 @@ check(failed.exit_code == 1 and "1 of 2 runs have no answer" in failed.errors an
 with open(os.path.join(folder, "bar.json")) as stream:
     runs = json.load(stream)["runs"]
 check([one["answered"] for one in runs] == [True, False] and "0.6" in runs[1]["failure"], runs)
+for key, bad, good in (("materials.0.E1", "-1", "500"), ("constraints.0.on.boundary", "nowhere", "xmin")):  # found on reading, or in the mesh
+    failed = run("sweep", "bar.yaml", "--over", f"{key}={bad},{good}", "--json", "bar.json", folder=folder)
+    report = read_json(folder, "bar.json")
+    check(failed.exit_code == 1 and "1 of 2 runs have no answer" in failed.errors, failed.errors)
+    check([one["answered"] for one in report["runs"]] == [False, True] and report["runs"][1]["watched"]["end"] > 0, report)
 for arguments, words in ((("--over", "loads.0.valu=1,2"), "unknown key 'valu'"),
                          (("--over", "materials.wod.E1=1,2"), "materials has no entry 'wod'"),
                          (("--over", "loads.0.value.x"), "--over takes KEY=a,b,c or KEY=from:to:count"),

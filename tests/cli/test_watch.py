@@ -54,6 +54,7 @@ watch:
   tip: {displacement: {nearest: [4, 0, 0]}, component: z}
   held: {reaction: {boundary: xmin}, component: z}
   length: {reaction: {boundary: xmin}}
+  aside: {reaction: {boundary: xmin}, component: y}
   work: strain_energy
 """
     finished, report, _ = solve(bent)
@@ -65,6 +66,7 @@ watch:
         check(0.1 * value < error < value, f"{name}: {watched[name]}")
         check(f"+- {error:.2g} ({100 * error / value:.2g} %)" in printed[name], f"{name}: {printed[name]}")
     check(watched["held"]["error"] == 0 and "statics" in printed["held"], f"held: {watched['held']}, {printed['held']}")
+    check(abs(watched["aside"]["value"]) < 1e-12 and printed["aside"].startswith("aside                  0, which statics"), f"{printed['aside']}")
     check(abs(watched["held"]["value"] + 1) < 1e-12, f"held: {watched['held']}")
     check(abs(watched["length"]["value"] - 1) < 1e-12 and "statics" in printed["length"], f"length: {watched['length']}")
     _, report, _ = solve(bent + "output: {fields: [stress]}\n")

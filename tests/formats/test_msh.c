@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "msh_writer.h"
 
+#include "core/memory.h"
 #include "core/small.h"
 #include "formats/serial/formats.h"
 
@@ -647,6 +648,8 @@ static void ends_may_follow_bytes_at_once(void **state)
     }
 }
 
+#define LARGE_FIELD "$ElementData\n1\n\"x\"\n1\n0.0\n3\n0\n1\n1\n5000000000 5\n$EndElementData\n"
+
 static void tags_may_be_zero_sparse_and_many(void **state)
 {
     assert_success(read_mesh(
@@ -660,6 +663,29 @@ static void tags_may_be_zero_sparse_and_many(void **state)
     assert_int_equal(chunk->boundary_count, 1);
     assert_nodes(boundary("skin")->nodes, 3, (int[]){0, 77, 5});
     drop_mesh();
+}
+
+/* Beyond 32 bits, in every version whose text has no type for tags; fields find them too. */
+static void tags_of_texts_may_be_large(void **state)
+{
+    static const char *const files[] = {
+        HEAD22 "$Nodes\n4\n3000000000 0 0 0\n2 1 0 0\n3 0 1 0\n100000000000 0 0 1\n$EndNodes\n"
+               "$Elements\n1\n5000000000 4 2 1 1 3000000000 2 3 100000000000\n$EndElements\n" LARGE_FIELD,
+        "$MeshFormat\n3 0 8\n$EndMeshFormat\n"
+        "$Nodes\n4\n3000000000 0 0 0 0\n2 1 0 0 0\n3 0 1 0 0\n100000000000 0 0 1 0\n$EndNodes\n"
+        "$Elements\n1\n5000000000 4 1 4 3000000000 2 3 100000000000\n$EndElements\n" LARGE_FIELD};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        OstFileField field = {0};
+        assert_success(read_mesh(write_text("large.msh", files[i])));
+        assert_true(chunk->tet_label[0] == 5000000000);
+        assert_true(chunk->node_label[position(3000000000)] == 3000000000);
+        for (int n = 0; n < 4; n++)
+            assert_int_equal(chunk->tet_nodes[n], position((OstGlobal[]){3000000000, 2, 3, 100000000000}[n]));
+        assert_success(ost_msh_read_field(ctx, scratch("large.msh"), "x", chunk, &field));
+        assert_true(field.values[0] == 5.0);
+        OST_FREE(field.values);
+        drop_mesh();
+    }
 }
 
 /* Nodes with their parameters on curves, surfaces and in volumes. */
@@ -791,6 +817,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(other_binary_sections_are_skipped),
     cmocka_unit_test(ends_may_follow_bytes_at_once),
     cmocka_unit_test(tags_may_be_zero_sparse_and_many),
+    cmocka_unit_test(tags_of_texts_may_be_large),
     cmocka_unit_test(parametric_nodes_are_read),
     cmocka_unit_test(partitioned_files_are_one_body),
     cmocka_unit_test(faces_may_be_in_several_groups),

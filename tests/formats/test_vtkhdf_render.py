@@ -13,7 +13,7 @@ from unittest import mock
 import numpy
 from matplotlib.image import imread
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_QUADRATIC_TETRA, VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 
 RENDER = os.path.join(os.environ["ORTHOSTAT_SOURCE"], "scripts", "render")
 sys.path.insert(0, os.path.dirname(RENDER))
@@ -22,6 +22,7 @@ from rendering.fields import average, axes_of, part_of  # noqa: E402
 from rendering.marks import dashes, gather_loads, make_cells, make_points  # noqa: E402
 from rendering.results import each_step  # noqa: E402
 from rendering.section import choose_section  # noqa: E402
+from rendering.shape import surface_of  # noqa: E402
 from rendering.view import load_arrows  # noqa: E402
 
 
@@ -196,6 +197,18 @@ output: {fields: [displacement, load, reaction, material_stress]}
         ends = vtk_to_numpy(actor.GetMapper().GetInput().GetPoints().GetData())
         numpy.testing.assert_allclose(ends.mean(axis=0), [1, 1, 0.5], atol=1e-6)  # a little above its triangle
         numpy.testing.assert_allclose(ends[1] - ends[0], [0, 4.8, 0], atol=1e-6)  # of 0.8 × 10 what lies in its plane
+
+    def test_triangles_of_a_surface_know_their_tet(self):
+        corners = numpy.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        middles = [(corners[a] + corners[b]) / 2 for a, b in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))]
+        for kind, places in ((VTK_TETRA, corners), (VTK_QUADRATIC_TETRA, numpy.vstack([corners, middles]))):
+            grid = vtkUnstructuredGrid()  # three tets apart, ten along x
+            grid.SetPoints(make_points(numpy.vstack([places + [10 * tet, 0, 0] for tet in range(3)])))
+            grid.SetCells(kind, make_cells(numpy.arange(3 * len(places)).reshape(3, -1)))
+            surface = surface_of(grid)
+            first = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)[:, 0]
+            tet = numpy.floor(vtk_to_numpy(surface.GetPoints().GetData())[first, 0] / 10)
+            numpy.testing.assert_array_equal(vtk_to_numpy(surface.GetCellData().GetArray("cell")), tet)
 
     def test_one_axis_is_enough_for_fibres(self):
         data = vtkUnstructuredGrid().GetCellData()

@@ -243,6 +243,12 @@ def a_mesh_of_arrays_serves_cases_and_problems(folder):
     assert scene.mesh.region_names == ["near", "far"] and scene.mesh.boundary_names == ["left", "right"]
     close(scene.axes, np.tile(axes[0], (scene.mesh.tet_count, 1, 1)))
     close(scene.mesh.axes, scene.axes)
+    unused = {**case, "materials": [{**WOOD, "region": "all"}]}
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        orthostat.Case(unused).scene(mine if rank == 0 else orthostat.MeshArrays())
+    expected = [True] if rank == 0 else []
+    assert ["no material uses them: a material with 'axes: {cells: mesh}' does" in str(one.message) for one in heard] == expected, heard
     result = scene.solve()
     assert result.largest_displacement > 1.2 * 0.02 * 4 / 10, result  # across the grain it is softer
     found_points, found_tets = scene.mesh.whole()

@@ -85,6 +85,24 @@ static void a_rate_beyond_the_order_is_not_believed(void **state)
     assert_int_equal(reference_of(2, 3, q).kind, OST_REFERENCE_FINEST);
 }
 
+/* A least load factor that a singular stress lowers without end. */
+static void what_is_positive_has_no_negative_limit(void **state)
+{
+    static const int refinement[] = {0, 1, 2};
+    const double value[] = {1.0, 0.6, 0.3}; /* tend to -0.6, at a rate of 0.415 */
+    OstAnswers answers = {.order = 1, .count = 3, .refinement = refinement, .value = value, .scale = 1.0};
+    OstCostReference found;
+    ost_reference_of(&answers, &found);
+    assert_int_equal(found.kind, OST_REFERENCE_EXTRAPOLATED);
+    assert_close(found.value, -0.6, 1e-11);
+    answers.positive = 1;
+    ost_reference_of(&answers, &found);
+    assert_int_equal(found.kind, OST_REFERENCE_FINEST);
+    assert_close(found.value, 0.3, 0.0);
+    assert_close(found.uncertainty, 0.4, 1e-12); /* more than the value: a share of the scale */
+    assert_non_null(strstr(found.note, "no rate to extrapolate by"));
+}
+
 static void growing_differences_are_called_so(void **state)
 {
     const OstCostReference found = reference_of(1, 3, (const double[]){1.0, 2.0, 4.0});
@@ -157,6 +175,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_does_not_tend_anywhere_has_no_limit),
     cmocka_unit_test(a_sensible_rate_is_extrapolated),
     cmocka_unit_test(a_rate_beyond_the_order_is_not_believed),
+    cmocka_unit_test(what_is_positive_has_no_negative_limit),
     cmocka_unit_test(growing_differences_are_called_so),
     cmocka_unit_test(few_answers_say_how_little_they_know),
     cmocka_unit_test(an_answer_that_stays_is_the_reference),

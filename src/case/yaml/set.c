@@ -176,7 +176,7 @@ static const char *keys_meant(const Setting *setting, const OstYamlNode *mapping
     return keys[0] ? keys : NULL;
 }
 
-/* The number of an entry of a list that the step names; -1 if it names none. */
+/* The number of an entry of a list that the step names, or the count for the next one; -1 if it names none. */
 static int entry_number(const Setting *setting, const OstYamlNode *list)
 {
     const char *step = setting->step;
@@ -185,7 +185,7 @@ static int entry_number(const Setting *setting, const OstYamlNode *list)
     char *end = NULL;
     const long number = strtol(step, &end, 10);
     if (isdigit((unsigned char)step[0]) && *end == 0)
-        return number < count ? (int)number : -1;
+        return number <= count ? (int)number : -1;
     if (count <= 3 && step[0] >= 'x' && step[0] <= 'z' && !step[1])
         return step[0] - 'x' < count ? step[0] - 'x' : -1;
     for (int i = 0; i < count; i++, item = ost_yaml_next(setting->yaml, item)) {
@@ -203,7 +203,7 @@ static OstStatus raise_no_entry(const Setting *setting, const OstYamlNode *list)
 {
     enum { MOST_NAMES = 20 };
     const char *names[MOST_NAMES];
-    char place[OST_YAML_PLACE_SIZE], text[OST_YAML_LIST_SIZE], found[OST_YAML_LIST_SIZE + 512];
+    char place[OST_YAML_PLACE_SIZE], text[OST_YAML_LIST_SIZE], found[OST_YAML_LIST_SIZE + 512], next[64] = "";
     int count = 0;
     const OstYamlNode *item = list + 1;
     for (uint32_t i = 0; i < list->value; i++, item = ost_yaml_next(setting->yaml, item)) {
@@ -216,9 +216,11 @@ static OstStatus raise_no_entry(const Setting *setting, const OstYamlNode *list)
     ost_yaml_name_list(names, count, text, sizeof text);
     const char *nearest = ost_nearest_word(setting->step, names, count);
     ost_yaml_place(setting->yaml, list, place, sizeof place);
-    snprintf(found, sizeof found, "%s has no entry '%s'%s%s%s; it has %u, numbered from 0%s%s", place, setting->step,
+    if (isdigit((unsigned char)setting->step[0]))
+        snprintf(next, sizeof next, "; number %u can be added, as a whole", (unsigned)list->value);
+    snprintf(found, sizeof found, "%s has no entry '%s'%s%s%s; it has %u, numbered from 0%s%s%s", place, setting->step,
              nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "", (unsigned)list->value,
-             count > 0 ? ", of these names: " : "", text);
+             count > 0 ? ", of these names: " : "", text, next);
     return raise_setting(setting, found);
 }
 
@@ -253,7 +255,8 @@ static OstStatus put_before(Setting *setting, const char *keys)
     return OST_SUCCESS;
 }
 
-/* Goes down by one step, unless the mapping lacks that key. */
+/* Goes down by one step, unless the mapping lacks that key, or the step is to be a list's next entry. Of such an entry
+ * no part can be set: whoever counts from 1 would add a load in place of changing one. */
 static OstStatus descend(Setting *setting, int *missing)
 {
     char keys[LONGEST_STEP];
@@ -273,8 +276,11 @@ static OstStatus descend(Setting *setting, int *missing)
         return OST_SUCCESS;
     }
     const int number = entry_number(setting, at);
-    if (number < 0)
+    *missing = number == (int)at->value;
+    if (number < 0 || (*missing && setting->rest[0]))
         return raise_no_entry(setting, at);
+    if (*missing)
+        return OST_SUCCESS;
     const OstYamlNode *item = at + 1;
     for (int i = 0; i < number; i++)
         item = ost_yaml_next(setting->yaml, item);
@@ -339,7 +345,9 @@ static OstStatus add_key(Setting *setting, const OstYaml *value, const char *wri
     OstYaml *yaml = setting->yaml, *pair = NULL;
     Text text = {.ctx = yaml->ctx};
     OstStatus status = write_pair(setting, value, written, &text);
-    OST_THEN(ost_yaml_parse(yaml->ctx, "--set", text.text, text.length, &pair));
+    if (status == OST_SUCCESS && ost_yaml_parse(yaml->ctx, "--set", text.text, text.length, &pair) != OST_SUCCESS)
+        status = raise_setting(setting, "the value is not YAML beside other keys; put a text in quotes, a mapping in "
+                                        "braces, a list in brackets");
     if (status == OST_SUCCESS) {
         const Splice splice = {setting->parent, yaml->node[setting->parent].next, 0, pair, 1};
         status = insert(setting, &splice);
@@ -356,8 +364,11 @@ static OstStatus walk_and_set(Setting *setting, const OstYaml *value, const char
         int missing = 0;
         OST_TRY(take_step(setting));
         OST_TRY(descend(setting, &missing));
-        if (missing)
+        const uint32_t parent = setting->parent;
+        if (missing && yaml->node[parent].kind == OST_YAML_MAPPING)
             return add_key(setting, value, written);
+        if (missing)
+            return insert(setting, &(Splice){parent, yaml->node[parent].next, 0, value, 0});
     } while (setting->rest[0]);
     const uint32_t at = setting->node;
     const Splice splice = {setting->parent, at, yaml->node[at].next - at, value, 0};

@@ -124,12 +124,13 @@ static const Card cards[] = {{"CTETRA", OST_CELL_TET4, OST_CELL_TET10, 0, {0}},
                              {"CQUAD", OST_CELL_QUAD4, OST_CELL_QUAD9, 0, {0}},
                              {"CQUAD9", OST_CELL_QUAD4, OST_CELL_QUAD9, 0, {0}}}; /* Gmsh's */
 
-/* Mid-edge nodes are all there, or none. meshio leaves out the property. */
+/* Mid-edge nodes are all there, or none. meshio leaves out the property: faces without one become one boundary. */
 static OstStatus read_cell(Nastran *nastran, const Card *card)
 {
     const OstCellKind linear = card->linear, quadratic = card->quadratic;
     const int vertices = ost_cell_facts[linear].nodes, all = ost_cell_facts[quadratic].nodes;
-    OstGlobal label = 0, property = OST_NO_GROUP, nodes[MOST_NODES] = {0}, in_order[MOST_NODES];
+    OstGlobal label = 0, property = ost_cell_facts[linear].dimension == 3 ? OST_NO_GROUP : 0, nodes[MOST_NODES] = {0},
+              in_order[MOST_NODES];
     int middles = 0;
     OST_TRY(ost_nastran_integer(&nastran->card, "the number of an element", 0, &label));
     if (ost_nastran_field(&nastran->card, 1)[0])

@@ -109,6 +109,7 @@ void ost_nastran_begin_card(OstNastranCard *card, const char *line, const char *
     int length = 0;
     for (; line + length < end && length < OST_NASTRAN_NAME - 1 && !strchr(" ,*\t", line[length]); length++)
         card->name[length] = (char)toupper((unsigned char)line[length]);
+    length -= length > 0 && card->name[length - 1] == '_'; /* meshio's, of quadratic elements: CTETRA_ */
     card->name[length] = '\0';
     card->fields = 0;
     card->line = line;

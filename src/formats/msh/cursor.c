@@ -202,6 +202,16 @@ OstStatus ost_msh_long(OstMshCursor *cursor, const char *what, OstGlobal *value)
     return OST_SUCCESS;
 }
 
+OstStatus ost_msh_tag(OstMshCursor *cursor, const char *what, OstGlobal *tag)
+{
+    int number = 0;
+    if (!cursor->binary)
+        return ost_msh_long(cursor, what, tag);
+    OST_TRY(ost_msh_int(cursor, what, &number));
+    *tag = number;
+    return OST_SUCCESS;
+}
+
 static OstStatus read_double(OstMshCursor *cursor, const char *what, double *value)
 {
     char *end = NULL;

@@ -27,6 +27,8 @@ OstStatus ost_msh_size(OstMshCursor *cursor, const char *what, OstGlobal *value)
 OstStatus ost_msh_double(OstMshCursor *cursor, const char *what, double *value);
 /* Local. A whole number that may be negative: 64 bits in a binary file. Refused beyond OST_LARGEST_LABEL in size. */
 OstStatus ost_msh_long(OstMshCursor *cursor, const char *what, OstGlobal *value);
+/* Local. The tag of a node or element, before version 4.1: an int in a binary file, of any size in a text. */
+OstStatus ost_msh_tag(OstMshCursor *cursor, const char *what, OstGlobal *tag);
 /* Local. Skips numbers, which need not be finite: Gmsh writes boxes of empty entities as infinite. */
 OstStatus ost_msh_skip_doubles(OstMshCursor *cursor, const char *what, OstGlobal count);
 

@@ -119,13 +119,13 @@ static OstStatus read_values(Field *field, int width, int count)
     double value[MOST_COMPONENTS];
     OST_TRY(ost_msh_check_count(cursor, "entries of data", count, 1 + width));
     for (int i = 0; i < count; i++) {
-        int tag;
-        OST_TRY(ost_msh_int(cursor, "the tag of an element or node", &tag));
+        OstGlobal tag;
+        OST_TRY(ost_msh_tag(cursor, "the tag of an element or node", &tag));
         for (int k = 0; k < width; k++)
             OST_TRY(ost_msh_double(cursor, "a value of an element or node", &value[k]));
         if (!field->out->on_nodes && field->chunk->of_cells)
-            for (int piece = 1; piece < OST_PIECE_LABELS; piece++)
-                put_row(field, OST_PIECE_LABELS * (OstGlobal)tag + piece, width, value);
+            for (int piece = 1; piece < OST_PIECE_LABELS && tag < OST_LARGEST_LABEL / OST_PIECE_LABELS; piece++)
+                put_row(field, OST_PIECE_LABELS * tag + piece, width, value);
         else
             put_row(field, tag, width, value);
     }

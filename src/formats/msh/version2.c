@@ -17,9 +17,10 @@ static OstStatus read_nodes(OstMsh *msh, int parametric)
     OST_TRY(ost_msh_check_count(cursor, "nodes", count, cursor->binary ? BINARY_NODE : TEXT_NODE));
     OST_TRY(ost_msh_reserve_nodes(msh, count));
     for (OstGlobal i = 0; i < count; i++) {
-        int tag = 0, dimension = 0, entity = 0;
+        OstGlobal tag = 0;
+        int dimension = 0, entity = 0;
         double x[3];
-        OST_TRY(ost_msh_int(cursor, "a node's tag", &tag));
+        OST_TRY(ost_msh_tag(cursor, "a node's tag", &tag));
         for (int c = 0; c < 3; c++)
             OST_TRY(ost_msh_double(cursor, "a coordinate", &x[c]));
         if (parametric) {
@@ -55,15 +56,12 @@ static OstStatus read_tags(OstMshCursor *cursor, int count, int *group)
     return OST_SUCCESS;
 }
 
-static OstStatus add_element(OstMsh *msh, int type, int number, int group)
+static OstStatus add_element(OstMsh *msh, int type, OstGlobal number, int group)
 {
     OstGlobal nodes[OST_MSH_MOST_NODES];
     OST_TRY(ost_msh_check_type(msh, type));
-    for (int i = 0; i < ost_msh_types[type].nodes; i++) {
-        int node = 0;
-        OST_TRY(ost_msh_int(&msh->cursor, "a node of an element", &node));
-        nodes[i] = node;
-    }
+    for (int i = 0; i < ost_msh_types[type].nodes; i++)
+        OST_TRY(ost_msh_tag(&msh->cursor, "a node of an element", &nodes[i]));
     return ost_msh_add_element(msh, type, number, nodes, 1, &group);
 }
 
@@ -72,8 +70,9 @@ static OstStatus read_element(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
     const int first = msh->version < 20;
-    int number = 0, type = 0, tags = 2, group = 0, nodes = 0;
-    OST_TRY(ost_msh_int(cursor, "an element's number", &number));
+    OstGlobal number = 0;
+    int type = 0, tags = 2, group = 0, nodes = 0;
+    OST_TRY(ost_msh_tag(cursor, "an element's number", &number));
     OST_TRY(ost_msh_int(cursor, "an element's type", &type));
     OST_TRY(ost_msh_check_type(msh, type));
     if (!first)
@@ -91,14 +90,15 @@ static OstStatus read_element(OstMsh *msh)
 static OstStatus read_block(OstMsh *msh, OstGlobal left, int *count)
 {
     OstMshCursor *cursor = &msh->cursor;
-    int type = 0, tags = 0, number = 0, group = 0;
+    OstGlobal number = 0;
+    int type = 0, tags = 0, group = 0;
     OST_TRY(ost_msh_int(cursor, "an element's type", &type));
     OST_TRY(ost_msh_int(cursor, "the number of elements that follow", count));
     OST_TRY(ost_msh_int(cursor, "the number of an element's tags", &tags));
     if (*count < 0 || *count > left)
         return OST_RAISE_MSH(cursor, "a block of %d elements found where %" PRId64 " are left", *count, left);
     for (int i = 0; i < *count; i++) {
-        OST_TRY(ost_msh_int(cursor, "an element's number", &number));
+        OST_TRY(ost_msh_tag(cursor, "an element's number", &number));
         OST_TRY(read_tags(cursor, tags, &group));
         OST_TRY(add_element(msh, type, number, group));
     }

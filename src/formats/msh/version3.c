@@ -16,9 +16,10 @@ OstStatus ost_msh3_nodes(OstMsh *msh)
     OST_TRY(ost_msh_check_count(cursor, "nodes", count, SMALLEST_NODE));
     OST_TRY(ost_msh_reserve_nodes(msh, count));
     for (OstGlobal i = 0; i < count; i++) {
-        int tag = 0, entity = 0, dimension = 0;
+        OstGlobal tag = 0;
+        int entity = 0, dimension = 0;
         double x[3];
-        OST_TRY(ost_msh_int(cursor, "a node's tag", &tag));
+        OST_TRY(ost_msh_tag(cursor, "a node's tag", &tag));
         for (int c = 0; c < 3; c++)
             OST_TRY(ost_msh_double(cursor, "a coordinate", &x[c]));
         OST_TRY(ost_msh_int(cursor, "a node's entity", &entity));
@@ -36,10 +37,10 @@ OstStatus ost_msh3_nodes(OstMsh *msh)
 static OstStatus read_element(OstMsh *msh)
 {
     OstMshCursor *cursor = &msh->cursor;
-    OstGlobal nodes[OST_MSH_MOST_NODES], group_count = 0;
+    OstGlobal nodes[OST_MSH_MOST_NODES], group_count = 0, number = 0, value = 0;
     const int *groups = NULL;
-    int number = 0, type = 0, entity = 0, count = 0, value = 0;
-    OST_TRY(ost_msh_int(cursor, "an element's number", &number));
+    int type = 0, entity = 0, count = 0;
+    OST_TRY(ost_msh_tag(cursor, "an element's number", &number));
     OST_TRY(ost_msh_int(cursor, "an element's type", &type));
     OST_TRY(ost_msh_check_type(msh, type));
     OST_TRY(ost_msh_int(cursor, "an element's entity", &entity));
@@ -48,7 +49,7 @@ static OstStatus read_element(OstMsh *msh)
         return OST_RAISE_MSH(cursor, "an element of type %d with %d nodes found, expected %d", type, count,
                              ost_msh_types[type].nodes);
     for (int i = 0; i < count; i++) {
-        OST_TRY(ost_msh_int(cursor, "a node of an element", &value));
+        OST_TRY(ost_msh_tag(cursor, "a node of an element", &value));
         if (i < ost_msh_types[type].nodes)
             nodes[i] = value;
     }

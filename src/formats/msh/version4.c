@@ -57,12 +57,7 @@ static OstStatus read_blocks(OstMsh *msh, const char *what, OstGlobal bytes_each
 
 static OstStatus read_tag(OstMshCursor *cursor, int version, const char *what, OstGlobal *tag)
 {
-    int number = 0;
-    if (version > 40 || !cursor->binary)
-        return ost_msh_size(cursor, what, tag);
-    OST_TRY(ost_msh_int(cursor, what, &number));
-    *tag = number;
-    return OST_SUCCESS;
+    return version > 40 ? ost_msh_size(cursor, what, tag) : ost_msh_tag(cursor, what, tag);
 }
 
 /* In version 4.1 a block has all tags before all coordinates: a second cursor reads the tags. */

@@ -32,26 +32,46 @@ static double flat_volume(const double *coordinates, const OstLocal *nodes)
     return longest * longest * fmax(flat_share * longest, DBL_EPSILON * farthest) / 6.0;
 }
 
-/* The cube of a length below 1e-102 or above 1e102 underflows or overflows. */
-static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat, OstGlobal bad,
-                               int twisted)
+enum { INVERTED, FLAT, KINDS };
+
+/* Twisted: do others of the bad tet's element have a volume? */
+static void say_what_mends(const OstMesh *mesh, const OstGlobal bad[KINDS], int twisted, size_t size, char *text)
 {
-    char cell[OST_CELL_WORDS];
+    size_t used = 0;
+    if (twisted) {
+        snprintf(text, size,
+                 "%lld of its tets are inverted or flat, and as others of the element are not, it is twisted, has a "
+                 "corner of 180 degrees or more, or its nodes are in a wrong order",
+                 (long long)(bad[INVERTED] + bad[FLAT]));
+        return;
+    }
+    if (bad[INVERTED] > 0)
+        used = (size_t)snprintf(text, size, "%lld of its tets %s inverted: %s%s", (long long)bad[INVERTED],
+                                bad[INVERTED] == 1 ? "is" : "are",
+                                mesh->of_arrays ? "exchanging two vertices of such a tet turns it"
+                                                : "'orthostat mesh FILE NEW --orient' turns such",
+                                bad[FLAT] > 0 ? "; " : "");
+    if (bad[FLAT] > 0)
+        snprintf(text + used, size - used, "%lld of its tets %s flat: mesh the body anew there", (long long)bad[FLAT],
+                 bad[FLAT] == 1 ? "is" : "are");
+}
+
+/* The cube of a length below 1e-102 or above 1e102 underflows or overflows. */
+static OstStatus raise_bad_tet(const OstMesh *mesh, OstGlobal label, double volume, double flat,
+                               const OstGlobal bad[KINDS], int twisted)
+{
+    char cell[OST_CELL_WORDS], mending[512];
     ost_cell_words(mesh, label, cell);
     if (!(flat >= DBL_MIN && isfinite(flat) && isfinite(volume)))
         return OST_RAISE(
             mesh->ctx, OST_INVALID_INPUT,
             "tet %lld%s has a volume of %g, beyond what double precision holds; choose another unit of length",
             (long long)label, cell, volume);
-    return OST_RAISE(
-        mesh->ctx, OST_INVALID_INPUT,
-        "tet %lld%s is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or what "
-        "rounding of coordinates takes); mend the mesh: %lld of its tets are inverted or flat, and %s",
-        (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, (long long)bad,
-        twisted ? "as others of the element are not, it is twisted, has a corner of 180 degrees or more, or its nodes "
-                  "are in a wrong order"
-        : mesh->of_arrays ? "exchanging two vertices of such a tet turns it"
-                          : "'orthostat mesh FILE NEW --orient' turns the inverted ones");
+    say_what_mends(mesh, bad, twisted, sizeof mending, mending);
+    return OST_RAISE(mesh->ctx, OST_INVALID_INPUT,
+                     "tet %lld%s is %s: its volume is %g, expected more than %g (1e-12 of its longest edge cubed, or "
+                     "what rounding of coordinates takes); mend the mesh: %s",
+                     (long long)label, cell, volume < -flat ? "inverted" : "flat", volume, flat, mending);
 }
 
 /* Has the element of the file with this tet others that are not inverted? */
@@ -70,12 +90,13 @@ static OstStatus check_volumes(const OstMesh *mesh)
 {
     OstGlobal lowest = INT64_MAX;
     OstLocal worst = -1;
-    OstGlobal bad = 0;
+    OstGlobal bad[KINDS] = {0};
     for (OstLocal t = 0; t < mesh->owned_tets; t++) {
         const OstLocal *nodes = ost_mesh_nodes_of(mesh, t);
-        if (ost_tet_volume(mesh->coordinates, nodes) > flat_volume(mesh->coordinates, nodes))
+        const double volume = ost_tet_volume(mesh->coordinates, nodes), flat = flat_volume(mesh->coordinates, nodes);
+        if (volume > flat)
             continue;
-        bad++;
+        bad[volume < -flat ? INVERTED : FLAT]++;
         if (mesh->tet_label[t] < lowest) {
             lowest = mesh->tet_label[t];
             worst = t;
@@ -83,7 +104,7 @@ static OstStatus check_volumes(const OstMesh *mesh)
     }
     OstGlobal first = lowest;
     OST_TRY(ost_min_numbers(mesh->ctx, 1, &first));
-    OST_TRY(ost_sum_numbers(mesh->ctx, 1, &bad));
+    OST_TRY(ost_sum_numbers(mesh->ctx, KINDS, bad));
     int twisted = 0;
     if (first < INT64_MAX)
         OST_TRY(find_upright(mesh, first, &twisted));

@@ -103,15 +103,6 @@ static void show_progress(const Run *run, int done, int number)
     ost_log(run->ctx, OST_LOG_VERBOSE, "%s", what);
 }
 
-static void warn_if_idle(const OstScene *scene, const char *name)
-{
-    if (!ost_plan_acts(scene->c, &scene->plan))
-        ost_warn(scene->ctx,
-                 "%s: nothing acts on the body in load case '%s': there is no load and no prescribed "
-                 "displacement",
-                 scene->c->path, name);
-}
-
 /* On one mesh. */
 static OstStatus solve_together(Run *run)
 {
@@ -124,7 +115,7 @@ static OstStatus solve_together(Run *run)
         const int number = ost_load_cases_next(cases);
         const OstScene *scene = ost_load_cases_scene(cases, number);
         show_progress(run, ost_load_cases_count(cases) - ost_load_cases_left(cases), number);
-        warn_if_idle(scene, run->c->load_cases[number].name);
+        ost_plan_warn_idle(scene->c, &scene->plan, run->c->load_cases[number].name);
         const OstStatus solved = ost_load_cases_solve(cases, ost_scene_result_fields(scene), &result);
         status = conclude(run, solved, scene, result, NULL, &run->report[number]);
         ost_result_destroy(&result);
@@ -153,6 +144,8 @@ static OstStatus solve_accurately(Run *run, int number)
     OstStatus status = ost_adapt(run->c->load_cases[number].c, &limits, &adaption);
     const OstScene *scene = adaption ? ost_adaption_scene(adaption) : NULL;
     const OstResult *result = adaption ? ost_adaption_result(adaption) : NULL;
+    if (scene)
+        ost_plan_warn_idle(scene->c, &scene->plan, run->c->load_cases[number].name);
     status = conclude(run, status, scene, result, adaption, report);
     if (status == OST_SUCCESS && report->status == OST_SUCCESS && adaption->end != OST_ADAPT_MET) {
         char words[OST_LONGEST_ADAPT_WORDS];

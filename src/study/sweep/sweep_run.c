@@ -139,13 +139,10 @@ static void show_progress(const OstSweep *sweep, int number, int done)
     ost_progress_task(sweep->ctx, what, done, sweep->run_count);
 }
 
-/* What is wrong with the case itself shows in the first run. */
 static OstStatus take_failure(OstSweep *sweep, int number, OstStatus status)
 {
-    const int is_first = number < runs_of_value(sweep);
-    const int is_of_run = status == OST_NOT_CONVERGED || status == OST_CHECK_FAILED || !is_first;
     char name[128];
-    if (status == OST_SUCCESS || !is_of_run || status == OST_LIBRARY_FAILED || status == OST_INVALID_USAGE)
+    if (status == OST_SUCCESS || status == OST_LIBRARY_FAILED || status == OST_INVALID_USAGE)
         return status;
     sweep->failures++;
     name_run(sweep, number, sizeof name, name);
@@ -218,6 +215,25 @@ static OstStatus name_watches(OstSweep *sweep, const OstCase *c)
     return OST_SUCCESS;
 }
 
+/* The first value that can be read says what is watched. If none can, as where a key does not exist, nothing is run. */
+static OstStatus begin(OstSweep *sweep)
+{
+    OstStatus status = OST_INVALID_INPUT;
+    OstSweepRun run = {0};
+    for (int number = 0; number < sweep->run_count / runs_of_value(sweep) && status != OST_SUCCESS; number++) {
+        OstCase *c = NULL;
+        choose_values(sweep, number, &run);
+        status = read_case(sweep, &run, &c);
+        OST_THEN(ost_agree(sweep->ctx, name_watches(sweep, c)));
+        ost_case_destroy(&c);
+    }
+    if (status == OST_SUCCESS)
+        return status;
+    OstCase *c = NULL;
+    choose_values(sweep, 0, &run);
+    return read_case(sweep, &run, &c);
+}
+
 /* For the values of the runs from the first on. */
 static OstStatus solve(OstSweep *sweep, int first)
 {
@@ -226,8 +242,6 @@ static OstStatus solve(OstSweep *sweep, int first)
     const double start = ost_seconds();
     OstStatus status = read_case(sweep, run, &c);
     OST_THEN(check_load_cases(sweep, c));
-    if (status == OST_SUCCESS && first == 0)
-        status = ost_agree(sweep->ctx, name_watches(sweep, c));
     OST_THEN(c->load_case_count > 0                ? solve_each(sweep, c, first)
              : c->asks_error && c->path_steps == 0 ? solve_accurately(sweep, c, run)
                                                    : solve_once(sweep, c, run));
@@ -279,6 +293,7 @@ OstStatus ost_sweep_run(OstSweep *sweep)
                          sweep->path, runs, OST_MOST_SWEEP_RUNS);
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &sweep->run, runs)));
     sweep->run_count = (int)runs;
+    OST_TRY(begin(sweep));
     double kept = 0.0;
     for (int number = 0; number < sweep->run_count / runs_of_value(sweep); number++) {
         OST_TRY(solve_value(sweep, number));
