@@ -4,6 +4,7 @@
 #include "accuracy/complement/blocks.h"
 #include "accuracy/locking.h"
 #include "accuracy/search.h"
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -239,19 +240,11 @@ static OstStatus iterate_from(Search *search, double *square)
     return search->steps.failed ? OST_SUCCESS : ost_earlier_finish(earlier, &search->steps.r, &search->steps.e);
 }
 
-double ost_search_largest(size_t count, const double *numbers)
-{
-    double most = 0.0;
-    for (size_t i = 0; i < count; i++)
-        most = fabs(numbers[i]) > most ? fabs(numbers[i]) : most;
-    return most;
-}
-
 OstStatus ost_search_take(Search *search, const double *left)
 {
     OstSteps *steps = &search->steps;
     const double unit = search->estimate->stiffness.unit;
-    double most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
+    double most = fmax(ost_largest(3 * steps->functions, left), ost_largest(steps->rows, steps->r.rows));
     OST_TRY(ost_max(search->estimate->problem->ctx, 1, &most));
     steps->size = most > 0.0 ? most / unit : 1.0;
     ost_steps_take_residual(steps, left, steps->size * unit);
@@ -323,6 +316,7 @@ static OstStatus find_scale(Search *search, double t, double *square)
         ost_problem_at_pressure(problem, NULL, &field, &at_rest);
         memset(search->steps.u, 0, 3 * (size_t)mesh->node_count * sizeof *search->steps.u);
         OST_TRY(ost_problem_energy(&at_rest, t, search->steps.u, &held));
+        OST_TRY(ost_search_displacement(search));
     }
     for (size_t i = 0; space && problem->field->pressure && i < 4 * (size_t)mesh->owned_tets; i++) {
         const OstLocal tet = (OstLocal)(i / 4);
@@ -342,7 +336,6 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     const OstProblem *problem = search->estimate->problem;
     double most[2] = {0.0}, energy = 0.0, scale;
     OST_TRY(find_scale(search, t, &scale));
-    OST_TRY(ost_search_displacement(search));
     for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
         double better[3];
         for (size_t i = 0; i < 3; i++)

@@ -51,7 +51,7 @@ static OstStatus find_residual(Search *search)
 {
     const OstProblem *problem = search->problem;
     double *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
+    OstStatus status = OST_NEW_UNCLEARED(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
     OST_THEN(
         ost_problem_force_and_stress(problem, 1.0, search->solved->displacement, search->internal, &search->stress));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
@@ -305,7 +305,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     *errors = (OstErrors){0};
     OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);
     OST_THEN(OST_NEW(ctx, &search.error, 3 * (size_t)problem->mesh->node_count));
-    OST_THEN(OST_NEW(ctx, &search.internal, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &search.internal, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY_DONE(ost_agree(ctx, status));
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));
