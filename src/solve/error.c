@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "problem/free_body.h"
 
 #include <math.h>
@@ -79,6 +80,7 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     int found;
     errors->known = 0;
     OST_TRY(ost_solver_error(search->solver, missing, search->residual, search->of_rows, &found));
+    ost_together_gather(problem->ctx); /* the tets are visited for all load cases at once, from here on */
     if (!found)
         return OST_SUCCESS;
     OST_TRY(ost_system_displacement(problem->system, 0.0, search->of_rows, search->error));
