@@ -316,7 +316,6 @@ static OstStatus find_scale(Search *search, double t, double *square)
         ost_problem_at_pressure(problem, NULL, &field, &at_rest);
         memset(search->steps.u, 0, 3 * (size_t)mesh->node_count * sizeof *search->steps.u);
         OST_TRY(ost_problem_energy(&at_rest, t, search->steps.u, &held));
-        OST_TRY(ost_search_displacement(search));
     }
     for (size_t i = 0; space && problem->field->pressure && i < 4 * (size_t)mesh->owned_tets; i++) {
         const OstLocal tet = (OstLocal)(i / 4);
@@ -336,6 +335,7 @@ static OstStatus compare(Search *search, double t, const double *u, double squar
     const OstProblem *problem = search->estimate->problem;
     double most[2] = {0.0}, energy = 0.0, scale;
     OST_TRY(find_scale(search, t, &scale));
+    OST_TRY(ost_search_displacement(search));
     for (size_t n = 0; n < (size_t)problem->mesh->owned_nodes; n++) {
         double better[3];
         for (size_t i = 0; i < 3; i++)
