@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "accuracy/estimate.h"
 #include "accuracy/search.h"
+#include "algebra/matrix/vector.h"
 #include "assembly/springs.h"
 #include "core/error.h"
 #include "core/memory.h"
@@ -28,7 +29,7 @@ static OstStatus out_of_balance(const OstProblem *problem, double t, const doubl
 static OstStatus find_small_length(const OstProblem *problem, const double *moved, double *length)
 {
     static const double small = 1e-6;
-    double low[3], high[3], side[3], most = ost_search_largest(3 * (size_t)problem->mesh->node_count, moved);
+    double low[3], high[3], side[3], most = ost_largest(3 * (size_t)problem->mesh->node_count, moved);
     OST_TRY(ost_max(problem->ctx, 1, &most));
     OST_TRY(ost_mesh_bounds(problem->mesh, low, high));
     for (int i = 0; i < 3; i++)

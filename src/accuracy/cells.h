@@ -9,10 +9,13 @@
 #include "element/polar.h"
 #include "element/shape_functions.h"
 
+#include <stdint.h>
 #include <string.h>
 
 /* Batches of tets with their functions, read and written: for accuracy/operator_forces.c and accuracy/pressure_error.c.
  */
+
+static const size_t nowhere_of_functions = SIZE_MAX;
 
 enum { NUMBERS = 3 * OST_MAX_TET_NODES, MORE = 3 * OST_MAX_FUNCTIONS };
 
@@ -31,6 +34,7 @@ typedef struct Cells {
     int state;  /* forces of a state, which may have a pressure; else those of a small displacement */
     int straight;
     OstLocal function[OST_SIMD_WIDTH][OST_MAX_FUNCTIONS];
+    size_t place[OST_MAX_FUNCTIONS][OST_SIMD_WIDTH]; /* of a function's forces; or nowhere_of_functions */
     OstSimd turn[OST_MAX_FUNCTIONS];
     const OstEvaluated *evaluated;      /* at the rule's points; NULL: not kept */
     const OstCurvedPoint *curved;       /* the same of curved tets that are nothing else */
@@ -112,9 +116,19 @@ static inline void gather_functions(const Cells *cells, const float *values, Ost
         }
 }
 
+/* Where the functions' numbers start, 3 each: for all states of a visit. */
+static inline void find_places_of_functions(const OstComplement *complement, Cells *cells)
+{
+    for (int k = 0; k < cells->functions; k++)
+        for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
+            const OstLocal function = cells->function[slot][k];
+            const int counts = slot < cells->batch.count && ost_complement_owns(complement, function);
+            cells->place[k][slot] = counts ? 3 * (size_t)function : nowhere_of_functions;
+        }
+}
+
 /* Takes forces of a state off those on the functions: 3 numbers each. */
-static inline void take_off_state(const OstOperator *operator, const Cells * cells, const OstSimd *at_functions,
-                                  double *of_state)
+static inline void take_off_state(const Cells *cells, const OstSimd *at_functions, double *of_state)
 {
     double *of_function[OST_SIMD_WIDTH], nowhere[3] = {0.0};
     for (int k = 0; k < cells->functions; k++) {
@@ -122,9 +136,8 @@ static inline void take_off_state(const OstOperator *operator, const Cells * cel
         for (int i = 0; i < 3; i++)
             turned[i] = -cells->turn[k] * at_functions[3 * k + i];
         for (int slot = 0; slot < OST_SIMD_WIDTH; slot++) {
-            const OstLocal function = cells->function[slot][k];
-            const int counts = slot < cells->batch.count && ost_complement_owns(operator->complement, function);
-            of_function[slot] = counts ? of_state + 3 * (size_t)function : nowhere;
+            const size_t place = cells->place[k][slot];
+            of_function[slot] = place == nowhere_of_functions ? nowhere : of_state + place;
         }
         ost_simd_scatter3(turned, of_function);
     }

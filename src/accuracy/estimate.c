@@ -4,6 +4,7 @@
 #include "accuracy/complement/blocks.h"
 #include "accuracy/locking.h"
 #include "accuracy/search.h"
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/halo.h"
@@ -239,19 +240,11 @@ static OstStatus iterate_from(Search *search, double *square)
     return search->steps.failed ? OST_SUCCESS : ost_earlier_finish(earlier, &search->steps.r, &search->steps.e);
 }
 
-double ost_search_largest(size_t count, const double *numbers)
-{
-    double most = 0.0;
-    for (size_t i = 0; i < count; i++)
-        most = fabs(numbers[i]) > most ? fabs(numbers[i]) : most;
-    return most;
-}
-
 OstStatus ost_search_take(Search *search, const double *left)
 {
     OstSteps *steps = &search->steps;
     const double unit = search->estimate->stiffness.unit;
-    double most = fmax(ost_search_largest(3 * steps->functions, left), ost_search_largest(steps->rows, steps->r.rows));
+    double most = fmax(ost_largest(3 * steps->functions, left), ost_largest(steps->rows, steps->r.rows));
     OST_TRY(ost_max(search->estimate->problem->ctx, 1, &most));
     steps->size = most > 0.0 ? most / unit : 1.0;
     ost_steps_take_residual(steps, left, steps->size * unit);

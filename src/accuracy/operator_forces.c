@@ -235,7 +235,7 @@ static void add_state(const Cells *cells, const OstElement *element, Sum *sum)
         find_forces(cells, element, sum->formulation, moved, NULL, at_nodes, at_functions);
         find_work(cells, moved, at_nodes, &work);
     }
-    take_off_state(sum->operator, cells, at_functions, sum->of_functions);
+    take_off_state(cells, at_functions, sum->of_functions);
     sum->work += own_work(cells, mesh->owned_tets, &work);
     if (sum->force)
         ost_batch_scatter_vectors(&cells->batch, cells->nodes, at_nodes, 1.0, mesh->owned_nodes, sum->force);
@@ -271,6 +271,7 @@ static OstStatus sum_states(void *complement, int count, void *const *sum)
                                            !ost_field_is_eigenstrained(one->operator->problem->field);
     for (OstLocal first = 0; first < mesh->tet_count; first += OST_SIMD_WIDTH) {
         gather(one->operator, first, mesh->tet_count, &cells);
+        find_places_of_functions(one->operator->complement, &cells);
         keep_points(element, !one->force && is_curved(&cells, one->formulation), &points, &cells);
         for (int k = 0; k < count; k++)
             add_state(&cells, element, sum[k]);

@@ -112,9 +112,6 @@ typedef struct OstOrders {
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
                                 double *factor, double *unsigned_sum);
 
-/* Local. The largest absolute value of some numbers. */
-double ost_search_largest(size_t count, const double *numbers);
-
 /* The errors of loads add up as the loads do (accuracy/sum.c): they are linear in them, whatever steps found them. */
 
 /* Collective. Keeps the residual of a search before its first step; and then the error found, whose square is |e|² in

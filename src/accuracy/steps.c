@@ -30,7 +30,7 @@ OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstS
     OST_THEN(OST_NEW(ctx, &steps->r.functions, 2 * numbers));
     OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
     OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)(columns > nodes ? columns : nodes))); /* rigid faces add rows */
-    OST_THEN(OST_NEW(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
     for (size_t k = 1; k < 4; k++)
         vectors[k]->rows = steps->p.rows + k * steps->rows;

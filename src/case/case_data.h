@@ -293,7 +293,7 @@ struct OstCase {
     int fields_line;        /* and where */
     int probe_count;
     OstProbe *probes;    /* tables of points, beside the output file */
-    int envelope;        /* is one of the load cases written? */
+    int envelope;        /* the line that asks for one of the load cases; 0: none is written */
     int load_case_count; /* 0: there are none. Else loads, supports and springs above are those of all */
     OstLoadCase *load_cases;
     int sweep_count; /* of keys */
@@ -319,6 +319,9 @@ OstStatus ost_case_make(OstContext *ctx, const char *path, const OstCaseText *te
 /* Local. Puts in place of a case the one of its load cases that has this name. Raises OST_INVALID_USAGE with the names
  * there are. */
 OstStatus ost_case_pick(OstCase **c, const char *name);
+
+/* Local. Where all load cases are taken: can the envelope that may be asked for be made of them? */
+OstStatus ost_case_check_envelope(const OstCase *c);
 
 /* Local. The fields that are to be recovered: those of the output, and what quantities of interest are made of. */
 unsigned ost_case_recovers(const OstCase *c);

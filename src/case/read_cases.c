@@ -191,14 +191,12 @@ OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int 
     return OST_SUCCESS;
 }
 
-OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output, const OstCase *c)
+OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output, OstCase *c)
 {
     if (c->envelope && !cases)
         return ost_yaml_raise(yaml, output, "an envelope is of load cases, and there are none ('cases')");
-    if (c->envelope && c->asks_error)
-        return ost_yaml_raise(yaml, output,
-                              "an envelope needs one mesh for all load cases, and an accuracy that is asked for gives "
-                              "each its own; leave out 'envelope' or 'relative_error'");
+    if (c->envelope)
+        c->envelope = ost_yaml_line(output);
     for (int k = 0; c->envelope && k < c->load_case_count; k++)
         if (strcasecmp(c->load_cases[k].name, "envelope") == 0)
             return ost_yaml_raise(yaml, output,
@@ -206,6 +204,17 @@ OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, cons
                                   "choose another name",
                                   c->load_cases[k].name, c->load_cases[k].line);
     return OST_SUCCESS;
+}
+
+OstStatus ost_case_check_envelope(const OstCase *c)
+{
+    return c->envelope && c->asks_error
+               ? OST_RAISE(c->ctx, OST_INVALID_INPUT,
+                           "%s:%d: an envelope needs one mesh for all load cases, and an accuracy that is asked for "
+                           "gives each its own; leave out 'envelope' or 'relative_error', or take one load case with "
+                           "--case",
+                           c->path, c->envelope)
+               : OST_SUCCESS;
 }
 
 /* Are 'a' with probe 'x_l' and 'a_x' with 'l' one file? `longer` begins with `shorter` and an underscore. */

@@ -33,8 +33,7 @@ enum { OST_EVERY_LOAD_CASE = -1 };
 OstStatus ost_read_load_cases(const OstYaml *yaml, const OstYamlNode *node, int number, OstCase *c);
 
 /* Can the envelope that `output` may ask for be made? `cases` is NULL if there are none. */
-OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output,
-                             const OstCase *c);
+OstStatus ost_check_envelope(const OstYaml *yaml, const OstYamlNode *cases, const OstYamlNode *output, OstCase *c);
 
 /* Do the tables of probes in load cases have names of their own? */
 OstStatus ost_check_probe_files(const OstYaml *yaml, const OstYamlNode *output, const OstCase *c);

@@ -161,15 +161,29 @@ error_t ost_cli_max_time(struct argp_state *state, const char *text, double *sec
     return EINVAL;
 }
 
-OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c)
+/* The one load case that may be named has no envelope. */
+static OstStatus read_case(OstContext *ctx, const OstArguments *arguments, OstCase **c)
 {
     OST_TRY(ost_case_read_with(ctx, arguments->case_path, arguments->settings, arguments->setting, c));
-    return arguments->load_case ? ost_case_pick(c, arguments->load_case) : OST_SUCCESS;
+    const int envelope = (*c)->envelope;
+    if (!arguments->load_case)
+        return OST_SUCCESS;
+    OST_TRY(ost_case_pick(c, arguments->load_case));
+    if (envelope)
+        ost_log(ctx, OST_LOG_NORMAL, "%s:%d: no envelope is written: it is of all load cases, and --case takes '%s'",
+                (*c)->path, envelope, arguments->load_case);
+    return OST_SUCCESS;
+}
+
+OstStatus ost_cli_read(OstContext *ctx, const OstArguments *arguments, OstCase **c)
+{
+    OST_TRY(read_case(ctx, arguments, c));
+    return ost_case_check_envelope(*c);
 }
 
 OstStatus ost_cli_read_one(OstContext *ctx, const OstArguments *arguments, OstCase **c)
 {
-    OST_TRY(ost_cli_read(ctx, arguments, c));
+    OST_TRY(read_case(ctx, arguments, c));
     const int count = (*c)->load_case_count;
     if (count == 0)
         return OST_SUCCESS;

@@ -224,6 +224,32 @@ OstStatus ost_guard_volume(const OstProblem *problem, const double *g, int *encl
         before);
 }
 
+/* Of loads that a caller gives node by node: is one of them no number? */
+static OstStatus check_given(const OstProblem *problem, int function)
+{
+    OstContext *ctx = problem->ctx;
+    const size_t count = 3 * (size_t)problem->mesh->owned_nodes;
+    double *force = NULL;
+    size_t at = 0;
+    if (problem->scene)
+        return OST_SUCCESS;
+    OST_TRY(ost_agree(ctx, OST_NEW(ctx, &force, count)));
+    ost_problem_add_load(problem, function, 1.0, NULL, force);
+    while (at < count && isfinite(force[at]))
+        at++;
+    OstStatus status = OST_SUCCESS;
+    if (at < count) {
+        const double *x = problem->mesh->coordinates + at - at % 3;
+        status =
+            OST_RAISE(ctx, OST_INVALID_INPUT,
+                      "%s: the force on node %zu of rank %d, at (%g, %g, %g), is %g along %c; expected a finite "
+                      "number: give 0 where no force acts",
+                      ost_problem_name(problem), at / 3, ost_rank(ctx), x[0], x[1], x[2], force[at], "xyz"[at % 3]);
+    }
+    OST_FREE(force);
+    return ost_agree(ctx, status);
+}
+
 OstStatus ost_guard_load(const OstProblem *problem, int function, const double *rhs, OstVerdict *before)
 {
     OstContext *ctx = problem->ctx;
@@ -234,5 +260,7 @@ OstStatus ost_guard_load(const OstProblem *problem, int function, const double *
         ost_ledger_leave(ctx);
         OST_TRY(take_objection(ctx, status, before));
     }
-    return take_objection(ctx, number_range_of_load(problem->system->matrix, rhs, name), before);
+    const OstStatus in_range = number_range_of_load(problem->system->matrix, rhs, name);
+    const OstStatus given = in_range == OST_INVALID_INPUT ? check_given(problem, function) : OST_SUCCESS;
+    return take_objection(ctx, given == OST_SUCCESS ? in_range : given, before);
 }

@@ -244,8 +244,8 @@ OstStatus ost_guard_errors(const OstProblem *problem, const OstProblem *of_error
     const double share = ost_problem_eigen_share(problem, 1.0);
     double *wrong = NULL, *load = NULL, *straining = NULL;
     double sums[SUMS] = {[STRESS] = stress}, swollen = 0.0, pressed = 0.0;
-    OstStatus status = OST_NEW(ctx, &wrong, n);
-    OST_THEN(OST_NEW(ctx, &load, n));
+    OstStatus status = OST_NEW_UNCLEARED(ctx, &wrong, n);
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &load, n));
     OST_THEN(ost_problem_force_and_stress(of_error, 0.0, error, wrong, &sums[STRESS_ERROR]));
     OST_THEN(add_eigen(problem, share, sums));
     if (status == OST_SUCCESS) {

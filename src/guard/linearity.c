@@ -13,25 +13,17 @@
 
 #include <string.h>
 
-/* Four vectors with the mean gradient of the displacement as their linear map, up to a factor: in the mean gradient of
- * a quadratic tet's shape functions only mid-edge nodes appear, each as the sum of its two ends'. */
-static inline void at_corners(int nodes, const OstSimd *u, OstSimd corners[12])
-{
-    if (nodes == 4) {
-        memcpy(corners, u, 12 * sizeof *u);
-        return;
-    }
-    memset(corners, 0, 12 * sizeof *corners);
-    for (int e = 0; e < 6; e++)
-        for (int end = 0; end < 2; end++)
-            for (int i = 0; i < 3; i++)
-                corners[3 * ost_tet_edge[e][end] + i] += u[3 * (4 + e) + i];
-}
-
+/* The edges from the first of four vectors with the mean gradient of the displacement as their linear map, up to a
+ * factor: in the mean gradient of a quadratic tet's shape functions only mid-edge nodes appear, each as the sum of its
+ * two ends'. */
 static inline void find_edges(int nodes, const OstSimd *vectors, OstSimd edges[3][3])
 {
-    OstSimd corners[12];
-    at_corners(nodes, vectors, corners);
+    OstSimd sums[12] = {{0}};
+    const OstSimd *corners = nodes == 4 ? vectors : sums;
+    for (int e = 0; e < 6 && nodes > 4; e++)
+        for (int end = 0; end < 2; end++)
+            for (int i = 0; i < 3; i++)
+                sums[3 * ost_tet_edge[e][end] + i] += vectors[3 * (4 + e) + i];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
             edges[k][i] = corners[3 * (k + 1) + i] - corners[i];
@@ -105,7 +97,10 @@ OST_KERNEL static void find_angles(const OstBatch *batch, int nodes, OstFormulat
 {
     OstSimd gradient[9], rotation[9];
     OstPolar polar;
-    find_gradient(batch, nodes, u, gradient);
+    if (nodes == 4) /* so that the compiler makes one of each */
+        find_gradient(batch, 4, u, gradient);
+    else
+        find_gradient(batch, 10, u, gradient);
     *work = (OstSimd){0};
     add_stress_work(&means->volume, gradient, means->stress, work);
     if (formulation == OST_FORMULATION_LINEAR) {

@@ -23,6 +23,18 @@ static int asks(unsigned fields, OstOutputFieldBit field)
     return (fields >> field & 1U) != 0;
 }
 
+static void write_six(const OstBatch *batch, const OstSimd numbers[6], double *of_tets)
+{
+    OstSimdFour first[OST_SIMD_WIDTH], rest[OST_SIMD_WIDTH]; /* four numbers and two */
+    ost_simd_rows(4, numbers, first);
+    ost_simd_rows(2, numbers + 4, rest);
+    for (int slot = 0; slot < batch->count; slot++) {
+        double *of_tet = of_tets + 6 * (size_t)batch->tet[slot];
+        *(OstSimdFour *)of_tet = first[slot];
+        *(OstSimdTwo *)(of_tet + 4) = __builtin_shufflevector(rest[slot], rest[slot], 0, 1);
+    }
+}
+
 static void write_means(void *data, const OstBatch *batch, const OstElement *element, const OstSimd *u,
                         const OstMeans *means)
 {
@@ -33,16 +45,14 @@ static void write_means(void *data, const OstBatch *batch, const OstElement *ele
         ost_large_rotation_mean_stress(element, result->formulation, batch->x, &batch->elasticity, u, stress);
     if (result->rotation)
         ost_large_rotation_mean_rotation(element, batch->x, &batch->elasticity, u, rotation);
+    if (result->strain)
+        write_six(batch, means->strain, result->strain);
+    if (result->stress)
+        write_six(batch, stress, result->stress);
     for (int slot = 0; slot < batch->count; slot++) {
         const size_t tet = (size_t)batch->tet[slot];
         for (size_t n = 0; result->rotation && n < 9; n++)
             result->rotation[9 * tet + n] = rotation[n][slot];
-        for (size_t p = 0; p < 6; p++) {
-            if (result->strain)
-                result->strain[6 * tet + p] = means->strain[p][slot];
-            if (result->stress)
-                result->stress[6 * tet + p] = stress[p][slot];
-        }
         if (result->strain_energy_density)
             result->strain_energy_density[tet] = means->energy[slot];
     }

@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
 #include "core/small.h"
+#include "core/together/together.h"
 #include "problem/free_body.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ static OstStatus find_residual(Search *search)
 {
     const OstProblem *problem = search->problem;
     double *load = NULL;
-    OstStatus status = OST_NEW(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
+    OstStatus status = OST_NEW_UNCLEARED(problem->ctx, &load, 3 * (size_t)problem->mesh->owned_nodes);
     OST_THEN(
         ost_problem_force_and_stress(problem, 1.0, search->solved->displacement, search->internal, &search->stress));
     OST_TRY_DONE(ost_agree(problem->ctx, status));
@@ -79,6 +80,7 @@ static OstStatus measure(const Search *search, double missing, OstErrors *errors
     int found;
     errors->known = 0;
     OST_TRY(ost_solver_error(search->solver, missing, search->residual, search->of_rows, &found));
+    ost_together_gather(problem->ctx); /* the tets are visited for all load cases at once, from here on */
     if (!found)
         return OST_SUCCESS;
     OST_TRY(ost_system_displacement(problem->system, 0.0, search->of_rows, search->error));
@@ -305,7 +307,7 @@ OstStatus ost_find_errors(const OstProblem *problem, OstSolver *solver, const Os
     *errors = (OstErrors){0};
     OstStatus status = OST_NEW(ctx, &search.residual, 2 * rows);
     OST_THEN(OST_NEW(ctx, &search.error, 3 * (size_t)problem->mesh->node_count));
-    OST_THEN(OST_NEW(ctx, &search.internal, 3 * (size_t)problem->mesh->owned_nodes));
+    OST_THEN(OST_NEW_UNCLEARED(ctx, &search.internal, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY_DONE(ost_agree(ctx, status));
     search.of_rows = search.residual + rows;
     OST_TRY_DONE(find_residual(&search));

@@ -91,6 +91,11 @@ for ranks in fewer((1, 2)):
 # --- one of them alone has none, and makes none ---
 run("solve", "mirror.yaml", "--case", "bend", "-o", "alone.vtkhdf", folder=folder)
 check(not os.path.exists(os.path.join(folder, "alone_envelope.vtkhdf")), os.listdir(folder))
+write(folder, "accurate.yaml", CASE.replace("title: a bar", "accuracy: {relative_error: 0.5}"))
+accurate = run("solve", "accurate.yaml", "--case", "bend", "-o", "alone.vtkhdf", folder=folder)
+check(accurate.exit_code == 0 and "no envelope is written: it is of all load cases, and --case takes 'bend'" in accurate.errors + accurate.output,
+      accurate)
+check(not os.path.exists(os.path.join(folder, "alone_envelope.vtkhdf")), os.listdir(folder))
 
 for change, words in ((("cases:", "caseless:"), "unknown key 'caseless'"),
                       ((CASE[CASE.index("cases:"):], ""), "an envelope is of load cases, and there are none"),

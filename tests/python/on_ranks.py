@@ -318,6 +318,11 @@ def constraints_may_be_given_along_directions(folder):
     masked = [(x[:own, 0] == 0, [0, 0, 0])]  # a mask may leave out ghosts
     assert not orthostat.Problem(mesh, steel, constraints=masked, force=np.zeros((own, 3))).analysis().solve().displacement.any()
     close(mesh.gather_nodes(answer.reaction)[mesh.gather_nodes(x)[:, 0] == 2].sum(axis=0), [2, 0, 0], 1e-6)
+    force, rank = np.zeros((own, 3)), mesh.context.rank
+    force[own - 1, 1] = 1.0 if rank else nan
+    wrong = orthostat.Problem(mesh, steel, constraints=masked, force=force).analysis()
+    raises(orthostat.InvalidInput, f"the force on node {'' if rank else f'{own - 1} of rank 0, at ('}", wrong.solve)
+    raises(orthostat.InvalidInput, "is nan along y; expected a finite number: give 0 where no force acts", wrong.solve)
 
 
 def incompressible_bodies_have_the_mixed_form(folder):

@@ -106,19 +106,59 @@ OST_KERNEL void ost_blocks_factor(const OstComplement *complement, float *block)
 
 /* --- vectors --- */
 
-/* y = N r, and z = N'y. The fourth numbers are zeros, which shuffles put where a matrix has none. */
-static inline void multiply(const Four *diagonal, const Four *others, const Four *r, Four *y)
+/* Two functions at a time; behind the last of an odd number there is nothing to read. */
+typedef float Two __attribute__((vector_size(WIDTH * sizeof(float)), aligned(16), may_alias));
+
+static inline void read_two(size_t left, const float *from, Eight *two)
 {
-    *y = *diagonal * *r +
-         __builtin_shufflevector(*others, *others, 3, 0, 1, 3) * __builtin_shufflevector(*r, *r, 3, 0, 1, 3) +
-         __builtin_shufflevector(*others, *others, 3, 3, 2, 3) * __builtin_shufflevector(*r, *r, 3, 3, 0, 3);
+    if (left > 1)
+        *two = *(const Two *)from;
+    else
+        *two = __builtin_shufflevector(*(const Four *)from, (Four){0.0F}, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-static inline void multiply_transposed(const Four *diagonal, const Four *others, const Four *y, Four *z)
+static inline void write_two(size_t left, const Eight *two, float *to)
 {
-    *z = *diagonal * *y +
-         __builtin_shufflevector(*others, *others, 0, 1, 3, 3) * __builtin_shufflevector(*y, *y, 1, 2, 3, 3) +
-         __builtin_shufflevector(*others, *others, 2, 3, 3, 3) * __builtin_shufflevector(*y, *y, 2, 3, 3, 3);
+    if (left > 1)
+        *(Two *)to = *two;
+    else
+        *(Four *)to = __builtin_shufflevector(*two, *two, 0, 1, 2, 3);
+}
+
+/* Of two blocks N their diagonals and what is below. */
+typedef struct Factors {
+    Eight diagonal, others;
+} Factors;
+
+static inline void read_factors(size_t left, const float *factor, Factors *n)
+{
+    Eight first = *(const Two *)factor, second = {0.0F};
+    if (left > 1)
+        second = *(const Two *)(factor + OST_PER_BLOCK);
+    n->diagonal = __builtin_shufflevector(first, second, 0, 1, 2, 3, 8, 9, 10, 11);
+    n->others = __builtin_shufflevector(first, second, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+#define OST_WITHIN(of, i, j, k, l) __builtin_shufflevector(of, of, i, j, k, l, 4 + i, 4 + j, 4 + k, 4 + l)
+
+/* y = N r, and z = N'y. The fourth numbers are zeros, which shuffles put where a matrix has none. */
+static inline void multiply(const Factors *n, const Eight *r, Eight *y)
+{
+    *y = n->diagonal * *r + OST_WITHIN(n->others, 3, 0, 1, 3) * OST_WITHIN(*r, 3, 0, 1, 3) +
+         OST_WITHIN(n->others, 3, 3, 2, 3) * OST_WITHIN(*r, 3, 3, 0, 3);
+}
+
+static inline void multiply_transposed(const Factors *n, const Eight *y, Eight *z)
+{
+    *z = n->diagonal * *y + OST_WITHIN(n->others, 0, 1, 3, 3) * OST_WITHIN(*y, 1, 2, 3, 3) +
+         OST_WITHIN(n->others, 2, 3, 3, 3) * OST_WITHIN(*y, 2, 3, 3, 3);
+}
+
+/* One function after the other, as rounding depends on it. */
+static inline void add_product(const Eight *a, const Eight *b, Four *sum)
+{
+    *sum += __builtin_shufflevector(*a, *a, 0, 1, 2, 3) * __builtin_shufflevector(*b, *b, 0, 1, 2, 3);
+    *sum += __builtin_shufflevector(*a, *a, 4, 5, 6, 7) * __builtin_shufflevector(*b, *b, 4, 5, 6, 7);
 }
 
 static inline double total(const Four *sum)
@@ -129,22 +169,28 @@ static inline double total(const Four *sum)
 OST_KERNEL void ost_blocks_step(size_t count, const float *factor, double length, const float *p, const float *q,
                                 float *e, float *r, double sums[2])
 {
-    const Four by = {(float)length, (float)length, (float)length, (float)length};
+    const Eight by = (Eight){0.0F} + (float)length;
     sums[0] = sums[1] = 0.0;
     for (size_t first = 0; first < count; first += RUN) {
         const size_t end = first + RUN < count ? first + RUN : count;
         Four rz = {0.0F}, qz = {0.0F};
-        for (size_t k = first; k < end; k++) {
-            const Four *n = (const Four *)(factor + OST_PER_BLOCK * k);
+        for (size_t k = first; k < end; k += 2) {
             const size_t at = OST_PER_FUNCTION * k;
-            const Four of_q = *(const Four *)(q + at), left = *(Four *)(r + at) - by * of_q;
-            *(Four *)(e + at) += by * *(const Four *)(p + at);
-            *(Four *)(r + at) = left;
-            Four y, z;
-            multiply(&n[0], &n[1], &left, &y);
-            multiply_transposed(&n[0], &n[1], &y, &z);
-            rz += y * y;
-            qz += of_q * z;
+            Eight of_p, of_q, of_e, left, y, z;
+            Factors n;
+            read_factors(end - k, factor + OST_PER_BLOCK * k, &n);
+            read_two(end - k, p + at, &of_p);
+            read_two(end - k, q + at, &of_q);
+            read_two(end - k, e + at, &of_e);
+            read_two(end - k, r + at, &left);
+            left -= by * of_q;
+            of_e += by * of_p;
+            write_two(end - k, &of_e, e + at);
+            write_two(end - k, &left, r + at);
+            multiply(&n, &left, &y);
+            multiply_transposed(&n, &y, &z);
+            add_product(&y, &y, &rz);
+            add_product(&of_q, &z, &qz);
         }
         sums[0] += total(&rz);
         sums[1] += total(&qz);
@@ -156,11 +202,14 @@ OST_KERNEL double ost_blocks_square(size_t count, const float *factor, const flo
     double square = 0.0;
     for (size_t first = 0; first < count; first += RUN) {
         const size_t end = first + RUN < count ? first + RUN : count;
-        Four sum = {0.0F}, y;
-        for (size_t k = first; k < end; k++) {
-            const Four *n = (const Four *)(factor + OST_PER_BLOCK * k);
-            multiply(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k), &y);
-            sum += y * y;
+        Four sum = {0.0F};
+        for (size_t k = first; k < end; k += 2) {
+            Eight left, y;
+            Factors n;
+            read_factors(end - k, factor + OST_PER_BLOCK * k, &n);
+            read_two(end - k, r + OST_PER_FUNCTION * k, &left);
+            multiply(&n, &left, &y);
+            add_product(&y, &y, &sum);
         }
         square += total(&sum);
     }
@@ -169,15 +218,20 @@ OST_KERNEL double ost_blocks_square(size_t count, const float *factor, const flo
 
 OST_KERNEL void ost_blocks_turn(size_t count, const float *factor, const float *r, double share, float *p)
 {
-    const Four by = {(float)share, (float)share, (float)share, (float)share};
-    for (size_t k = 0; k < count; k++) {
-        const Four *n = (const Four *)(factor + OST_PER_BLOCK * k);
-        Four y, z, *to = (Four *)(p + OST_PER_FUNCTION * k);
-        multiply(&n[0], &n[1], (const Four *)(r + OST_PER_FUNCTION * k), &y);
-        multiply_transposed(&n[0], &n[1], &y, &z);
-        if (share != 0.0)
-            z += by * *to;
-        *to = z;
+    const Eight by = (Eight){0.0F} + (float)share;
+    for (size_t k = 0; k < count; k += 2) {
+        const size_t at = OST_PER_FUNCTION * k;
+        Eight left, y, z, before;
+        Factors n;
+        read_factors(count - k, factor + OST_PER_BLOCK * k, &n);
+        read_two(count - k, r + at, &left);
+        multiply(&n, &left, &y);
+        multiply_transposed(&n, &y, &z);
+        if (share != 0.0) {
+            read_two(count - k, p + at, &before);
+            z += by * before;
+        }
+        write_two(count - k, &z, p + at);
     }
 }
 

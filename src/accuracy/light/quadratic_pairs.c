@@ -20,14 +20,13 @@ typedef struct Moved {
 } Moved;
 
 static inline void find_pair(const OstLightTets *tets, size_t k, const Pair *pair, const Bits turns[EDGES],
-                             Moved *moved, Moved *forces)
+                             Places *places, Moved *moved, Moved *forces)
 {
-    const Eights *eights = &tets->eights[k];
-    memset(moved->nodes, 0, pair->at_rest ? sizeof moved->nodes : sizeof moved->nodes[0]);
+    find_pair_places(tets, &tets->eights[k], NODES, FUNCTIONS, places);
     for (int a = 1; a < NODES && !pair->at_rest; a++)
-        read_node_pair(tets, eights, pair, a, moved->nodes[a]);
+        read_node_pair(places, pair, a, moved->nodes[a]);
     for (int n = 0; n < FUNCTIONS; n++) {
-        read_function_pair(tets, eights, pair, n, moved->functions[n]);
+        read_function_pair(places, pair, n, moved->functions[n]);
         if (n < EDGES)
             turn(&turns[n], moved->functions[n]);
     }
@@ -36,29 +35,30 @@ static inline void find_pair(const OstLightTets *tets, size_t k, const Pair *pai
 
 OST_KERNEL void ost_quadratic_pairs_apply(const OstLightTets *tets, const Pair *pair)
 {
-    Moved moved, forces;
+    Moved moved = {0}, forces;
+    Places places;
     for (size_t k = 0; k < tets->count; k++) {
-        const Eights *eights = &tets->eights[k];
         Bits turns[EDGES];
-        find_turns(tets, eights, turns);
-        find_pair(tets, k, pair, turns, &moved, &forces);
-        add_nodes_pair(tets, eights, pair, NODES, forces.nodes);
+        find_turns(tets, &tets->eights[k], turns);
+        find_pair(tets, k, pair, turns, &places, &moved, &forces);
+        add_nodes_pair(&places, pair, NODES, forces.nodes);
         for (int n = 0; n < FUNCTIONS; n++) {
             if (n < EDGES)
                 turn(&turns[n], forces.functions[n]);
-            add_function_pair(tets, eights, pair, n, forces.functions[n]);
+            add_function_pair(&places, pair, n, forces.functions[n]);
         }
     }
 }
 
 OST_KERNEL void ost_quadratic_pairs_energy(const OstLightTets *tets, const Pair *pair)
 {
-    Moved moved, forces;
+    Moved moved = {0}, forces;
+    Places places;
     for (size_t k = 0; k < tets->count; k++) {
         Sixteen work = {0.0F};
         Bits turns[EDGES];
         find_turns(tets, &tets->eights[k], turns);
-        find_pair(tets, k, pair, turns, &moved, &forces);
+        find_pair(tets, k, pair, turns, &places, &moved, &forces);
         add_work(NODES, moved.nodes, forces.nodes, &work);
         add_work(FUNCTIONS, moved.functions, forces.functions, &work);
         keep_energies(tets, &tets->eights[k], &work, pair);

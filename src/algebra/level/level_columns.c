@@ -105,7 +105,7 @@ void ost_level_matrix_add_columns(const OstLevelMatrix *matrix, float scale, Ost
 
 /* --- blocks --- */
 
-enum { TILE = 6 }; /* rows of a block at a time: a node's six, or two nodes' three */
+enum { TILE = 12 }; /* rows of a block at a time: so many sums hide what one takes */
 
 /* out = rows `from` on of value × in; the matrix is symmetric. */
 OST_UNROLLED void multiply_tile(int rows, int side, const float *value, const OstLightColumns *in, OstLightColumns *out)
@@ -120,31 +120,39 @@ OST_UNROLLED void multiply_tile(int rows, int side, const float *value, const Os
         out[r] = sum[r];
 }
 
+OST_UNROLLED void multiply_block(int side, const float *value, const OstLightColumns *in, OstLightColumns *out)
+{
+    int row = 0;
+    for (; row + TILE <= side; row += TILE)
+        multiply_tile(TILE, side, value + row, in, out + row);
+    for (; row + 6 <= side; row += 6)
+        multiply_tile(6, side, value + row, in, out + row);
+    for (; row < side; row += 3)
+        multiply_tile(3, side, value + row, in, out + row);
+}
+
 OST_UNROLLED void apply_blocks(const OstSmootherBlocks *blocks, int size, const OstColumnStep *step,
                                const OstLightColumns *r)
 {
     for (OstLocal b = 0; b < blocks->count; b++) {
         const OstLocal *node = blocks->node + blocks->node_start[b];
         const int nodes = blocks->node_start[b + 1] - blocks->node_start[b], side = size * nodes;
-        const float *value = blocks->value + blocks->value_start[b];
         OstLightColumns in[OST_LARGEST_SIDE], out[OST_LARGEST_SIDE];
-        for (int k = 0; k < side; k++)
-            in[k] = r[(size_t)size * (size_t)node[k / size] + (size_t)(k % size)];
-        int row = 0;
-        for (; row + TILE <= side; row += TILE)
-            multiply_tile(TILE, side, value + row, in, out + row);
-        for (; row < side; row += 3)
-            multiply_tile(3, side, value + row, in, out + row);
-        for (int k = 0; k < side; k++) {
-            const size_t at = (size_t)size * (size_t)node[k / size] + (size_t)(k % size);
-            OstLightColumns direction = step->add * out[k];
-            if (step->keep != 0.0F)
-                direction += step->keep * step->direction[at];
-            step->direction[at] = direction;
-            if (!step->is_first)
-                direction += step->sum[at];
-            step->sum[at] = direction;
-        }
+        for (int n = 0; n < nodes; n++)
+            for (int i = 0; i < size; i++)
+                in[size * n + i] = r[(size_t)size * (size_t)node[n] + (size_t)i];
+        multiply_block(side, blocks->value + blocks->value_start[b], in, out);
+        for (int n = 0; n < nodes; n++)
+            for (int i = 0; i < size; i++) {
+                const size_t at = (size_t)size * (size_t)node[n] + (size_t)i;
+                OstLightColumns direction = step->add * out[size * n + i];
+                if (step->keep != 0.0F)
+                    direction += step->keep * step->direction[at];
+                step->direction[at] = direction;
+                if (!step->is_first)
+                    direction += step->sum[at];
+                step->sum[at] = direction;
+            }
     }
 }
 

@@ -6,6 +6,9 @@
 
 /* Vectors distributed over the ranks; n numbers on this one. */
 
+/* Local. The largest absolute value. */
+double ost_largest(size_t n, const double *values);
+
 /* a·b: local, of this rank's numbers; collective, over all ranks. */
 double ost_dot(size_t n, const double *a, const double *b);
 OstStatus ost_vector_dot(OstContext *ctx, size_t n, const double *a, const double *b, double *product);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "solve/cases/company.h"
 
+#include "algebra/matrix/vector.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/free_memory.h"
@@ -122,8 +123,7 @@ static OstStatus find_products(OstContext *ctx, int count, Member *const *member
         OST_TRY(ost_problem_right_hand_side(member[k]->problem, 1.0, member[k]->linear.rhs));
         member[k]->linear.has_rhs = 1;
         for (int j = 0; j <= k; j++)
-            for (size_t i = 0; i < unknowns; i++)
-                product[count * k + j] += member[k]->linear.rhs[i] * member[j]->linear.rhs[i];
+            product[count * k + j] = ost_dot(unknowns, member[k]->linear.rhs, member[j]->linear.rhs);
     }
     return ost_sum(ctx, count * count, product);
 }
