@@ -59,7 +59,8 @@ OstStatus ost_orders_add(Search *search, const double *u, double *tet_error, dou
     ost_orders_second(search, u, of_second);
     *square = 0.0;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
-        tet_error[tet] *= 1.0 + to_come_of_orders * ost_orders_share(tet_error[tet], of_second[tet]);
+        tet_error[tet] *=
+            estimate->of_flat * (1.0 + to_come_of_orders * ost_orders_share(tet_error[tet], of_second[tet]));
         *square += tet_error[tet];
     }
     OST_FREE(of_second);
@@ -69,21 +70,23 @@ OstStatus ost_orders_add(Search *search, const double *u, double *tet_error, dou
 /* The share r that order three adds, from what all orders from three on do: x = r (1 + 4.4 r). */
 static double share_of_all(double of_all, double of_second)
 {
-    const double x = of_second > 0.0 ? fmax(of_all, 0.0) / of_second : 0.0;
+    const double x = of_second > 0.0 ? of_all / of_second : 0.0;
     return fmin((sqrt(1.0 + 4.0 * to_come_of_orders * x) - 1.0) / (2.0 * to_come_of_orders), largest_share);
 }
 
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
                                 double *factor, double *unsigned_sum)
 {
-    OstContext *ctx = search->estimate->problem->ctx;
-    const OstLocal tets = search->estimate->problem->mesh->owned_tets;
+    const OstEstimate *estimate = search->estimate;
+    OstContext *ctx = estimate->problem->ctx;
+    const OstLocal tets = estimate->problem->mesh->owned_tets;
     double *of_second = NULL, sums[2] = {0.0};
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &of_second, tets)));
     ost_orders_second(search, u, of_second);
     for (OstLocal tet = 0; tet < tets; tet++) {
-        const double share = share_of_all(tet_error[tet], of_second[tet]);
-        const double of_third = fmax(tet_error[tet], 0.0) / (1.0 + to_come_of_orders * share);
+        const double of_all = fmax(tet_error[tet], 0.0) / estimate->of_flat;
+        const double share = share_of_all(of_all, of_second[tet]);
+        const double of_third = of_all / (1.0 + to_come_of_orders * share);
         const double product = sqrt(of_third * (double)of_adjoint[tet].of_third);
         sums[0] += product;
         sums[1] += product * (1.0 + to_come_of_orders * sqrt(share * (double)of_adjoint[tet].share));
@@ -91,6 +94,6 @@ OstStatus ost_orders_of_product(Search *search, const double *u, const double *t
     OST_FREE(of_second);
     OST_TRY(ost_sum(ctx, 2, sums));
     *unsigned_sum = sums[0];
-    *factor = sums[0] > 0.0 ? sums[1] / sums[0] : 1.0;
+    *factor = estimate->of_flat * (sums[0] > 0.0 ? sums[1] / sums[0] : 1.0);
     return OST_SUCCESS;
 }
