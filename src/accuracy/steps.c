@@ -14,7 +14,11 @@
 /* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take two
  * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
 static const double settled = 0.15;
-enum { LEAST_TO_SETTLE = 2, MOST_TO_SETTLE = 20 }; /* a thin plate's first step was shorter than its next seven */
+enum {
+    LEAST_TO_SETTLE = 2,
+    LEAST_AFTER_U = 1,
+    MOST_TO_SETTLE = 20
+}; /* a thin plate's first step was shorter than its next seven */
 
 OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, const OstStacks *stacks, OstSolver *solver,
                          OstSteps *steps)
@@ -285,15 +289,16 @@ static OstStatus turn_along(OstSteps *steps, const double *u)
 OstStatus ost_steps_settle(OstSteps *steps, const double *u)
 {
     const int is_quadratic = steps->stiffness->complement->mesh->nodes_per_tet == 10;
+    const int least = u ? LEAST_AFTER_U : LEAST_TO_SETTLE;
     double length = 0.0, share = 1.0;
     if (u) {
         OST_TRY(turn_along(steps, u));
         if (steps->weight > 0.0)
             OST_TRY(go_on_rows(steps, &length, &share));
     }
-    for (int step = 0; step < MOST_TO_SETTLE && (step < LEAST_TO_SETTLE || share > settled); step++) {
-        const OstCyclePart part = step % 2 == 0 && (is_quadratic || step > 0) ? OST_CYCLE_WHOLE : OST_CYCLE_BRIEF;
-        OST_TRY(turn_rows(steps, part, length));
+    for (int step = 0; step < MOST_TO_SETTLE && (step < least || share > settled); step++) {
+        const int is_whole = u ? step % 2 == 1 : step % 2 == 0 && (is_quadratic || step > 0);
+        OST_TRY(turn_rows(steps, is_whole ? OST_CYCLE_WHOLE : OST_CYCLE_BRIEF, length));
         if (!(steps->weight > 0.0))
             break;
         OST_TRY(go_on_rows(steps, &length, &share));

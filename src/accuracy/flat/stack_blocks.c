@@ -117,37 +117,47 @@ static inline void add_part(size_t n, size_t k, size_t l, const double part[9], 
             block[column(n, 3 * l + j) + 3 * k + i] += part[3 * i + j];
 }
 
-static void add_pair(const OstStacks *stacks, const double mean[VERTICES][VERTICES], const Products *products, int slot,
-                     const OstLocal function[2], double factor, double *blocks)
+/* What functions k and l of a tet have together; `products` are the tet's. */
+static inline void find_part(const Means *means, int k, int l, double factor, double products[VERTICES][VERTICES][9],
+                             double part[9])
 {
-    const OstLocal stack = stacks->stack[function[0]];
-    const size_t n = 3 * (size_t)(stacks->start[stack + 1] - stacks->start[stack]);
-    double part[9] = {0.0};
+    memset(part, 0, 9 * sizeof *part);
     for (int a = 0; a < VERTICES; a++)
         for (int b = 0; b < VERTICES; b++) {
-            const double weight = factor * mean[a][b];
+            const double weight = factor * means->of[k][l][a][b];
             for (int m = 0; m < 9 && weight != 0.0; m++)
-                part[m] += weight * products->of[a][b][m][slot];
+                part[m] += weight * products[a][b][m];
         }
-    add_part(n, (size_t)stacks->place[function[0]], (size_t)stacks->place[function[1]], part,
-             blocks + stacks->block[stack]);
 }
 
-static void add_tet(const OstStacks *stacks, const Means *means, const Products *products, int slot, OstLocal tet,
+static void add_tet(const OstStacks *stacks, const Means *means, double products[VERTICES][VERTICES][9], OstLocal tet,
                     double unit, double *blocks)
 {
     OstLocal function[FUNCTIONS];
+    double turn_of[FUNCTIONS], part[9];
     ost_complement_of_tet(stacks->complement, tet, function);
     for (int k = 0; k < FUNCTIONS; k++)
-        for (int l = 0; l < FUNCTIONS; l++) {
-            const OstLocal pair[2] = {function[k], function[l]};
-            if (stacks->stack[pair[0]] < 0 || stacks->stack[pair[0]] != stacks->stack[pair[1]] ||
-                stacks->place[pair[0]] < stacks->place[pair[1]])
+        turn_of[k] = k < EDGES ? ost_complement_turn_of(stacks->complement, tet, k) : 1.0;
+    for (int k = 0; k < FUNCTIONS; k++) {
+        const OstLocal stack = stacks->stack[function[k]];
+        const int place = stacks->place[function[k]];
+        for (int l = 0; l < FUNCTIONS && stack >= 0; l++) {
+            if (stacks->stack[function[l]] != stack || stacks->place[function[l]] > place)
                 continue;
-            const double turn_k = k < EDGES ? ost_complement_turn_of(stacks->complement, tet, k) : 1.0,
-                         turn_l = l < EDGES ? ost_complement_turn_of(stacks->complement, tet, l) : 1.0;
-            add_pair(stacks, means->of[k][l], products, slot, pair, turn_k * turn_l / unit, blocks);
+            find_part(means, k, l, turn_of[k] * turn_of[l] / unit, products, part);
+            add_part(3 * (size_t)(stacks->start[stack + 1] - stacks->start[stack]), (size_t)place,
+                     (size_t)stacks->place[function[l]], part, blocks + stacks->block[stack]);
         }
+    }
+}
+
+/* Of one tet of a batch. */
+static inline void take_slot(const Products *products, int slot, double of[VERTICES][VERTICES][9])
+{
+    for (int a = 0; a < VERTICES; a++)
+        for (int b = 0; b < VERTICES; b++)
+            for (int m = 0; m < 9; m++)
+                of[a][b][m] = products->of[a][b][m][slot];
 }
 
 static void sum_blocks(const OstStacks *stacks, const OstProblem *problem, const double *turned_by, double unit,
@@ -172,8 +182,11 @@ static void sum_blocks(const OstStacks *stacks, const OstProblem *problem, const
         if (turned_by)
             find_rotation(&batch, turned_by, rotation);
         find_products(&batch, turned_by ? rotation : NULL, &products);
-        for (int slot = 0; slot < batch.count; slot++)
-            add_tet(stacks, &means, &products, slot, batch.tet[slot], unit, blocks);
+        for (int slot = 0; slot < batch.count; slot++) {
+            double of_tet[VERTICES][VERTICES][9];
+            take_slot(&products, slot, of_tet);
+            add_tet(stacks, &means, of_tet, batch.tet[slot], unit, blocks);
+        }
     }
 }
 

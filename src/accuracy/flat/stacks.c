@@ -12,7 +12,7 @@
 static const double short_share = 0.4;
 
 /* Vertices of a place. */
-enum { MOST_OF_PLACE = 4 };
+enum { MOST_OF_PLACE = 3 };
 
 void ost_stacks_destroy(OstStacks **stacks)
 {
