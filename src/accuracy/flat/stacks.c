@@ -44,8 +44,11 @@ static void mark_long(const OstComplement *complement, unsigned char *is_long)
             square[e] = edge_square(mesh, node[ost_tet_edge[e][0]], node[ost_tet_edge[e][1]]);
             longest = square[e] > longest ? square[e] : longest;
         }
+        int count = 0;
         for (int e = 0; e < 6; e++)
-            if (square[e] > short_share * short_share * longest)
+            count += square[e] <= short_share * short_share * longest;
+        for (int e = 0; e < 6; e++)
+            if (count > 2 || square[e] > short_share * short_share * longest)
                 is_long[complement->edges.of_tet[6 * (size_t)tet + (size_t)e]] = 1;
     }
 }
