@@ -31,7 +31,7 @@ static const double flat_from = 1.9, flattest = 6.0;
 /* With stacks, what later steps add was 2.5 to 10 times what is left after four steps, in plates, strips, leaves and
  * beams of tets whose edges are 4 to 20 times the thickness. All steps then had 0.66 to 0.79 of |e|²: what is missing
  * lies near edges of the body, within a thickness of them, and orders tell little of it. */
-static const double per_left_of_stacks = 5.5, missed_of_flat = 1.2;
+static const double per_left_of_stacks = 5.5, least_of_flat = 1.25;
 
 /* What two steps may add, where errors of other loads gave a start, to be the last. */
 static const double little_new = 0.03;
@@ -64,7 +64,7 @@ static OstStatus find_flatness(OstEstimate *estimate, int is_quadratic)
     estimate->is_stacked = estimate->is_flat && estimate->problem->field->form == OST_SPLIT_NOT;
     const double beyond = estimate->is_flat ? fmin(flatness, flattest) / flat_from : 1.0;
     estimate->per_left = estimate->is_stacked ? per_left_of_stacks : per_left * beyond * beyond * beyond;
-    estimate->of_flat = estimate->is_stacked ? missed_of_flat : 1.0;
+    estimate->of_flat = estimate->is_stacked ? least_of_flat : 1.0;
     return OST_SUCCESS;
 }
 
