@@ -48,7 +48,7 @@ static void mark_long(const OstComplement *complement, unsigned char *is_long)
         for (int e = 0; e < 6; e++)
             count += square[e] <= short_share * short_share * longest;
         for (int e = 0; e < 6; e++)
-            if (count > 2 || square[e] > short_share * short_share * longest)
+            if (count > 1 || square[e] > short_share * short_share * longest)
                 is_long[complement->edges.of_tet[6 * (size_t)tet + (size_t)e]] = 1;
     }
 }
