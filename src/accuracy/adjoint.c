@@ -490,7 +490,7 @@ OstStatus ost_adjoint_error(const OstAdjoint *adjoint, OstEstimate *estimate, do
                             const double *tet_error, double *error)
 {
     Search search = {0};
-    double of_orders = 1.0, unsigned_sum = 0.0, missing = 0.0;
+    double of_orders = estimate->of_flat, unsigned_sum = 0.0, missing = 0.0;
     OstStatus status = ost_search_move(estimate, u);
     OST_THEN(ost_search_open(estimate, NULL, &search));
     OST_THEN(ost_search_residual(&search, t, u));

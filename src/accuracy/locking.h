@@ -17,9 +17,4 @@ OstStatus ost_stiff_directions_cross(const OstProblem *problem, int *cross);
  * tets, which bend as if they were stiffer, and in any coarse body? `edges`: those that are this rank's. */
 OstStatus ost_has_few_layers(const OstMesh *mesh, OstLocal edges, int *few);
 
-/* Collective. How flat tets are: a tet's longest edge over its least altitude, over that of the six tets that a cube is
- * cut into; the geometric mean. 0.5 is that of regular tets, 2.4 that of hexes that are four times as long and as wide
- * as thick. */
-OstStatus ost_flatness(const OstMesh *mesh, double *flatness);
-
 #endif

@@ -48,6 +48,12 @@ double ost_orders_share(double of_third, double of_second)
     return of_second > 0.0 ? fmin(fmax(of_third, 0.0) / of_second, largest_share) : 0.0;
 }
 
+/* What orders from three on add, over what three does, of a tet in which that is a share r of what two does. */
+static double of_all_orders(const OstEstimate *estimate, double share)
+{
+    return fmax(estimate->of_flat, 1.0 + to_come_of_orders * share);
+}
+
 OstStatus ost_orders_add(Search *search, const double *u, double *tet_error, double *square)
 {
     const OstEstimate *estimate = search->estimate;
@@ -59,34 +65,36 @@ OstStatus ost_orders_add(Search *search, const double *u, double *tet_error, dou
     ost_orders_second(search, u, of_second);
     *square = 0.0;
     for (OstLocal tet = 0; tet < mesh->owned_tets; tet++) {
-        tet_error[tet] *= 1.0 + to_come_of_orders * ost_orders_share(tet_error[tet], of_second[tet]);
+        tet_error[tet] *= of_all_orders(estimate, ost_orders_share(tet_error[tet], of_second[tet]));
         *square += tet_error[tet];
     }
     OST_FREE(of_second);
     return ost_sum(estimate->problem->ctx, 1, square);
 }
 
-/* The share r that order three adds, from what all orders from three on do: x = r (1 + 4.4 r). */
-static double share_of_all(double of_all, double of_second)
+/* The share r that order three adds, from what all orders from three on do: x = r times the above. */
+static double share_of_all(const OstEstimate *estimate, double of_all, double of_second)
 {
     const double x = of_second > 0.0 ? fmax(of_all, 0.0) / of_second : 0.0;
-    return fmin((sqrt(1.0 + 4.0 * to_come_of_orders * x) - 1.0) / (2.0 * to_come_of_orders), largest_share);
+    const double share = (sqrt(1.0 + 4.0 * to_come_of_orders * x) - 1.0) / (2.0 * to_come_of_orders);
+    return fmin(fmin(share, x / estimate->of_flat), largest_share);
 }
 
 OstStatus ost_orders_of_product(Search *search, const double *u, const double *tet_error, const OstOrders *of_adjoint,
                                 double *factor, double *unsigned_sum)
 {
-    OstContext *ctx = search->estimate->problem->ctx;
-    const OstLocal tets = search->estimate->problem->mesh->owned_tets;
+    const OstEstimate *estimate = search->estimate;
+    OstContext *ctx = estimate->problem->ctx;
+    const OstLocal tets = estimate->problem->mesh->owned_tets;
     double *of_second = NULL, sums[2] = {0.0};
     OST_TRY(ost_agree(ctx, OST_NEW(ctx, &of_second, tets)));
     ost_orders_second(search, u, of_second);
     for (OstLocal tet = 0; tet < tets; tet++) {
-        const double share = share_of_all(tet_error[tet], of_second[tet]);
-        const double of_third = fmax(tet_error[tet], 0.0) / (1.0 + to_come_of_orders * share);
+        const double share = share_of_all(estimate, tet_error[tet], of_second[tet]);
+        const double of_third = fmax(tet_error[tet], 0.0) / of_all_orders(estimate, share);
         const double product = sqrt(of_third * (double)of_adjoint[tet].of_third);
         sums[0] += product;
-        sums[1] += product * (1.0 + to_come_of_orders * sqrt(share * (double)of_adjoint[tet].share));
+        sums[1] += product * of_all_orders(estimate, sqrt(share * (double)of_adjoint[tet].share));
     }
     OST_FREE(of_second);
     OST_TRY(ost_sum(ctx, 2, sums));

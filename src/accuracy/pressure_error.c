@@ -142,7 +142,7 @@ static OstStatus respond(Search *response, const OstProblem *at_pressure, const 
     OST_TRY(ost_steps_take_rows(steps, steps->r.rows));
     OST_TRY(ost_search_take(response, left));
     OST_TRY(ost_search_iterate(response, 0.0, &square));
-    return steps->failed ? OST_SUCCESS : ost_steps_settle(steps);
+    return steps->failed ? OST_SUCCESS : ost_steps_settle(steps, NULL);
 }
 
 /* e becomes e, lengthened, and the response. */

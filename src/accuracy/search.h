@@ -39,6 +39,9 @@ typedef struct OstEstimate {
     int misses;          /* do stiff directions cross quadratic tets, so that orders above are missed? */
     double per_left;     /* what later steps add to |e|², over what is left of r'B r */
     int is_flat;         /* are the tets flat? */
+    int is_stacked;      /* so: have their functions stacks? */
+    double of_flat;      /* what orders from the next on add, over what the next does, at least: 1 but in flat tets */
+    OstStacks *stacks;   /* in place of `factor`; or NULL */
     OstEarlier *earlier; /* what was found for other loads; or NULL */
     int keeps;           /* is what is found kept, for loads that are sums? */
     OstKeptError kept;

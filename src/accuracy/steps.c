@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel/reduce.h"
+#include "core/small.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,14 +14,19 @@
 /* The elements' own unknowns are at rest where a step moves them by no more than this share of e. Most bodies take two
  * to five such steps; thin and slender ones, whose bending multigrid finds slowly, more. */
 static const double settled = 0.15;
-enum { LEAST_TO_SETTLE = 2, MOST_TO_SETTLE = 20 }; /* a thin plate's first step was shorter than its next seven */
+enum {
+    LEAST_TO_SETTLE = 2,
+    LEAST_AFTER_U = 1,
+    MOST_TO_SETTLE = 20
+}; /* a thin plate's first step was shorter than its next seven */
 
-OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps)
+OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, const OstStacks *stacks, OstSolver *solver,
+                         OstSteps *steps)
 {
     const OstProblem *problem = stiffness->problem;
     OstContext *ctx = problem->ctx;
     OstEnriched *const vectors[4] = {&steps->p, &steps->q, &steps->r, &steps->e};
-    *steps = (OstSteps){.stiffness = stiffness, .factor = factor, .solver = solver, .size = 1.0};
+    *steps = (OstSteps){.stiffness = stiffness, .factor = factor, .stacks = stacks, .solver = solver, .size = 1.0};
     steps->rows = 3 * (size_t)problem->system->matrix->rows;
     steps->functions = (size_t)stiffness->complement->count;
     const size_t numbers = OST_PER_FUNCTION * steps->functions;
@@ -29,6 +35,8 @@ OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstS
     OST_THEN(OST_NEW_UNCLEARED(ctx, &steps->p.functions, 2 * numbers)); /* those of p and q are written at once */
     OST_THEN(OST_NEW(ctx, &steps->r.functions, 2 * numbers));
     OST_THEN(OST_NEW(ctx, &steps->z, steps->rows));
+    if (stacks)
+        OST_THEN(OST_NEW(ctx, &steps->stacked, numbers));
     OST_THEN(OST_NEW(ctx, &steps->u, 3 * (size_t)(columns > nodes ? columns : nodes))); /* rigid faces add rows */
     OST_THEN(OST_NEW_UNCLEARED(ctx, &steps->force, 3 * (size_t)problem->mesh->owned_nodes));
     OST_TRY(ost_agree(ctx, status));
@@ -44,6 +52,7 @@ void ost_steps_close(OstSteps *steps)
     OST_FREE(steps->p.rows);
     OST_FREE(steps->p.functions, steps->r.functions);
     OST_FREE(steps->z);
+    OST_FREE(steps->stacked);
     OST_FREE(steps->u);
     OST_FREE(steps->force);
 }
@@ -65,7 +74,8 @@ void ost_steps_take_residual(OstSteps *steps, const double *forces, double divis
 void ost_steps_start(OstSteps *steps)
 {
     memset(steps->p.rows, 0, 2 * steps->rows * sizeof *steps->p.rows); /* and q */
-    steps->products[0] = ost_blocks_square(steps->functions, steps->factor, steps->r.functions);
+    steps->products[0] = steps->stacks ? ost_stacks_apply(steps->stacks, steps->r.functions, steps->stacked)
+                                       : ost_blocks_square(steps->functions, steps->factor, steps->r.functions);
     steps->products[1] = 0.0;
     steps->weight = steps->gain = 0.0;
     steps->turns = 0;
@@ -132,17 +142,31 @@ static OstStatus take_cycle(OstSteps *steps, OstCyclePart part, int *found)
 /* The elements' own unknowns take part in every other step: hardly more steps are needed so, and half a multigrid cycle
  * takes as long as a product with A, or longer. On quadratic tets the first two steps are without: with one alone, the
  * error of a displacement in a coarse beam was found 1.57 times too large, not 1.17, and of a pressure at a point 8
- * times. */
+ * times. With stacks the functions are found sooner, and one is. */
 static OstStatus precondition(OstSteps *steps)
 {
     int found = 1;
-    const int first = steps->stiffness->complement->mesh->nodes_per_tet == 10 ? 2 : 1, turn = steps->turns++;
+    const int is_quadratic = steps->stiffness->complement->mesh->nodes_per_tet == 10;
+    const int first = is_quadratic && !steps->stacks ? 2 : 1, turn = steps->turns++;
     if (turn >= first && (turn - first) % 2 == 0)
         OST_TRY(take_cycle(steps, OST_CYCLE_HALF, &found));
     else
         memset(steps->z, 0, steps->rows * sizeof *steps->z);
     steps->failed = !found;
     return OST_SUCCESS;
+}
+
+static void go_on_functions(OstSteps *steps, double length)
+{
+    if (!steps->stacks) {
+        ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions,
+                        steps->e.functions, steps->r.functions, steps->products);
+        return;
+    }
+    ost_functions_add(steps->functions, length, steps->p.functions, steps->e.functions);
+    ost_functions_add(steps->functions, -length, steps->q.functions, steps->r.functions);
+    steps->products[0] = ost_stacks_apply(steps->stacks, steps->r.functions, steps->stacked);
+    steps->products[1] = ost_functions_dot(steps->functions, steps->q.functions, steps->stacked);
 }
 
 /* Goes along p. */
@@ -157,8 +181,7 @@ static OstStatus go_on(OstSteps *steps)
         steps->e.rows[i] += length * steps->p.rows[i];
         steps->r.rows[i] -= length * steps->q.rows[i];
     }
-    ost_blocks_step(steps->functions, steps->factor, length, steps->p.functions, steps->q.functions, steps->e.functions,
-                    steps->r.functions, steps->products);
+    go_on_functions(steps, length);
     steps->gain = length * steps->weight;
     return OST_SUCCESS;
 }
@@ -178,7 +201,10 @@ static OstStatus turn(OstSteps *steps)
     steps->weight = sums[0];
     for (size_t i = 0; i < steps->rows; i++)
         steps->p.rows[i] = steps->z[i] + share * steps->p.rows[i];
-    ost_blocks_turn(steps->functions, steps->factor, steps->r.functions, share, steps->p.functions);
+    if (steps->stacks)
+        ost_functions_turn(steps->functions, steps->stacked, share, steps->p.functions);
+    else
+        ost_blocks_turn(steps->functions, steps->factor, steps->r.functions, share, steps->p.functions);
     steps->failed |= !(steps->weight >= 0.0) || !isfinite(steps->weight);
     return OST_SUCCESS;
 }
@@ -237,16 +263,42 @@ static OstStatus go_on_rows(OstSteps *steps, double *length, double *share)
     return OST_SUCCESS;
 }
 
+/* The displacement u for the next direction. */
+static OstStatus turn_along(OstSteps *steps, const double *u)
+{
+    const OstSystem *system = steps->stiffness->problem->system;
+    double work = 0.0;
+    for (OstLocal row = 0; row < system->matrix->rows; row++) {
+        const OstLocal node = system->node_of_row[row];
+        double projector[9], *p = steps->p.rows + 3 * (size_t)row;
+        ost_supports_get(system->supports, node, projector, NULL);
+        ost_apply3(projector, u + 3 * (size_t)node, p);
+        work += ost_dot3(p, steps->r.rows + 3 * (size_t)row);
+    }
+    OST_TRY(ost_sum(steps->stiffness->problem->ctx, 1, &work));
+    for (size_t i = 0; i < steps->rows && work < 0.0; i++)
+        steps->p.rows[i] *= -1.0;
+    steps->weight = fabs(work);
+    steps->at_rest = 0;
+    return OST_SUCCESS;
+}
+
 /* A displacement is smooth, and on linear tets mostly found as well where the finest level is hardly smoothed. That of
  * quadratic tets is found slowly so: with brief cycles alone steps were short while half of a bar's twist was missing.
  */
-OstStatus ost_steps_settle(OstSteps *steps)
+OstStatus ost_steps_settle(OstSteps *steps, const double *u)
 {
     const int is_quadratic = steps->stiffness->complement->mesh->nodes_per_tet == 10;
+    const int least = u ? LEAST_AFTER_U : LEAST_TO_SETTLE;
     double length = 0.0, share = 1.0;
-    for (int step = 0; step < MOST_TO_SETTLE && (step < LEAST_TO_SETTLE || share > settled); step++) {
-        const OstCyclePart part = step % 2 == 0 && (is_quadratic || step > 0) ? OST_CYCLE_WHOLE : OST_CYCLE_BRIEF;
-        OST_TRY(turn_rows(steps, part, length));
+    if (u) {
+        OST_TRY(turn_along(steps, u));
+        if (steps->weight > 0.0)
+            OST_TRY(go_on_rows(steps, &length, &share));
+    }
+    for (int step = 0; step < MOST_TO_SETTLE && (step < least || share > settled); step++) {
+        const int is_whole = u ? step % 2 == 1 : step % 2 == 0 && (is_quadratic || step > 0);
+        OST_TRY(turn_rows(steps, is_whole ? OST_CYCLE_WHOLE : OST_CYCLE_BRIEF, length));
         if (!(steps->weight > 0.0))
             break;
         OST_TRY(go_on_rows(steps, &length, &share));

@@ -3,6 +3,7 @@
 #define ORTHOSTAT_ACCURACY_STEPS_H
 
 #include "accuracy/complement/complement.h"
+#include "accuracy/flat/stacks.h"
 #include "accuracy/operator.h"
 #include "algebra/solver.h"
 
@@ -11,12 +12,14 @@
  * that single precision holds them whatever the units of the case. */
 typedef struct OstSteps {
     const OstOperator *stiffness;
-    const float *factor; /* of the functions' blocks (accuracy/complement/blocks.h) */
+    const float *factor;     /* of the functions' blocks (accuracy/complement/blocks.h) */
+    const OstStacks *stacks; /* their blocks in place of these; or NULL */
     OstSolver *solver;
     size_t rows, functions; /* numbers of the rows, and the functions */
     double size;
     OstEnriched r, p, q, e; /* those of ghosts are 0, but in p */
     double *z;              /* of the rows alone */
+    float *stacked;         /* B r of the functions, where there are stacks; or NULL */
     double *u, *force;      /* of nodes, or of columns if those are more: a displacement; forces on it */
     double products[2];     /* of the functions: r'B r, q'B r */
     double weight, gain;    /* r'B r before the last step, and what the step added to |e|² */
@@ -26,7 +29,8 @@ typedef struct OstSteps {
 } OstSteps;
 
 /* Collective. Close it also after a failure. */
-OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, OstSolver *solver, OstSteps *steps);
+OstStatus ost_steps_open(const OstOperator *stiffness, const float *factor, const OstStacks *stacks, OstSolver *solver,
+                         OstSteps *steps);
 void ost_steps_close(OstSteps *steps);
 
 /* Local. Room for 3 double-precision numbers a function, in place of p and q, before the first step. */
@@ -46,8 +50,10 @@ OstStatus ost_steps_next(OstSteps *steps);
 OstStatus ost_steps_left(const OstSteps *steps, double *left);
 
 /* Collective. Steps on the elements' own unknowns alone, until they move e by little: few steps have little of a
- * displacement far from where its error is made. The last thing that is done with `steps`, but for reading e. */
-OstStatus ost_steps_settle(OstSteps *steps);
+ * displacement far from where its error is made. The first goes along a displacement u (3 × node_count, of a body whose
+ * nodes follow no others), as bodies are too stiff everywhere; NULL: it does not. The last thing that is done with
+ * `steps`, but for reading e. */
+OstStatus ost_steps_settle(OstSteps *steps, const double *u);
 
 /* Local; collective where nodes follow others. The rows' part of forces on nodes. */
 OstStatus ost_steps_take_rows(const OstSteps *steps, double *rows);

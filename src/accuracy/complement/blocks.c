@@ -235,6 +235,18 @@ OST_KERNEL void ost_blocks_turn(size_t count, const float *factor, const float *
     }
 }
 
+void ost_functions_add(size_t count, double share, const float *a, float *b)
+{
+    for (size_t i = 0; i < OST_PER_FUNCTION * count; i++)
+        b[i] += (float)share * a[i];
+}
+
+void ost_functions_turn(size_t count, const float *z, double share, float *p)
+{
+    for (size_t i = 0; i < OST_PER_FUNCTION * count; i++)
+        p[i] = share != 0.0 ? z[i] + (float)share * p[i] : z[i];
+}
+
 OST_KERNEL double ost_functions_dot(size_t count, const float *a, const float *b)
 {
     double product = 0.0;

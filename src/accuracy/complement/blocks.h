@@ -26,6 +26,10 @@ double ost_blocks_square(size_t count, const float *factor, const float *r);
 /* Local. p = N'N r + share p; a p of no share may be anything. */
 void ost_blocks_turn(size_t count, const float *factor, const float *r, double share, float *p);
 
+/* Local. Of vectors of the functions: b += share a; and p = z + share p, where a p of no share may be anything. */
+void ost_functions_add(size_t count, double share, const float *a, float *b);
+void ost_functions_turn(size_t count, const float *z, double share, float *p);
+
 /* Local. a'b of vectors of the functions. */
 double ost_functions_dot(size_t count, const float *a, const float *b);
 
