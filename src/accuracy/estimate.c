@@ -23,14 +23,15 @@ static const double largest_ratio = 0.75;
 
 /* What later steps add to |e|² is about this often what is left of r'B r on the functions: 2 to 5 times after three or
  * four steps in seven of ten errors of `verify`, and to 11 in nine. It tells if r'B r falls, or is small beside |e|².
- * In flat tets r'B r falls before the error does: 7 to 17 times it is missing where edges are 4 times as long as tets
- * are thick, 26 times for 8 and 41 for 20. That is about the cube of the flatness, from `flat_from` to `flattest`. */
+ * In flat tets without stacks r'B r falls before the error does: 7 to 17 times it is missing where edges are 4 times as
+ * long as tets are thick, 26 times for 8 and 41 for 20. That is about the cube of the flatness, from `flat_from` to
+ * `flattest`. */
 static const double per_left = 3.5, falling = 0.6, share_to_come = 0.3, small_to_come = 0.05;
 
 static const double flat_from = 1.9, flattest = 6.0;
 
 /* With stacks, what later steps add was 2.5 to 10 times what is left after four steps, in plates, strips, leaves and
- * beams of tets whose edges are 4 to 20 times the thickness. All steps then had 0.66 to 0.79 of |e|²: what is missing
+ * beams of tets whose edges are 4 to 20 times the thickness. All steps then had 0.66 to 0.81 of |e|²: what is missing
  * lies near edges of the body, within a thickness of them, and orders tell little of it. */
 static const double per_left_of_stacks = 5.5, least_of_flat = 1.25;
 
