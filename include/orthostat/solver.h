@@ -51,6 +51,8 @@ typedef struct OstSolverOptions {
     unsigned given;       /* OST_GIVEN_* */
     int precise;          /* 1: coarse levels in twice single precision; 2: the finest too. The solver sets it */
     int fine;             /* aggregates so small on all levels that coarse ones need no factors. The solver sets it */
+    int patches;          /* the finest level is smoothed over patches, which are factored; 2: though single precision
+                           * has lost some of their factors. The solver sets it */
     int own_blocks;       /* are the finest aggregates blocks by which prolongators are smoothed? Multigrid sets it */
     int columns;          /* 1: the finest aggregates are the columns of a plate, if it has any; 2: whose matrix is
                            * factored. Multigrid sets it */

@@ -20,7 +20,7 @@ struct OstSolver {
     int aged;                /* have the matrix's values changed since the current strategy was built? */
     int is_shared;           /* are strategy and map another solver's? */
     int precise;             /* has single precision been found too little for the coarse levels? */
-    int fine;                /* is the current strategy the last one: small aggregates on all levels? */
+    int fine;                /* is the current strategy the last one: patches? */
     unsigned broken;         /* a bit for each method whose preconditioner was last found not to be positive definite */
     int over_linear;         /* were the linear tets a level of METRIC, when it was last tried? */
     int repeated;            /* is it a stiffness among many? */
@@ -73,8 +73,7 @@ OstStatus ost_solver_explain_memory(const OstSolver *solver, const OstSolverOpti
  * iteration costs; AUTO if none has come so far. */
 OstMethod ost_solver_fastest(const OstSolver *solver, const OstSolveReport *report);
 
-/* Local. The same, but STRONG with small aggregates on all levels (solver->fine) comes before METRIC and STRONG for
- * linear tets. */
+/* Local. The same, but STRONG over patches (solver->fine) comes before METRIC and STRONG. */
 OstMethod ost_solver_choose_last(OstSolver *solver, const OstSolveReport *report);
 
 /* Local. Says that no other strategy is left, and what this one costs. */

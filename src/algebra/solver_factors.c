@@ -53,8 +53,9 @@ void ost_solver_learned_options(const OstSolver *solver, OstMethod method, OstSo
 {
     const double most = most_of_two_level(solver, method);
     OstSolverOptions planned = solver->plan.options;
-    planned.precise = solver->precise;
-    planned.fine = solver->fine;
+    planned.patches = solver->fine ? 1 + solver->precise : 0;
+    planned.precise = solver->fine ? 2 : solver->precise;
+    planned.fine = solver->fine && !solver->geometry.coarse;
     if (most > 0.0)
         planned.factor_memory = most;
     ost_solver_strategy_options(&planned, method, options);

@@ -29,7 +29,7 @@ struct OstCycleColumns {
 int ost_cycle_columns_fit(const OstCycle *cycle)
 {
     for (int l = 0; l < cycle->count; l++)
-        if (cycle->level[l].matrix->value_rest)
+        if (cycle->level[l].matrix->value_rest || (cycle->level[l].smoother && cycle->level[l].smoother->patches))
             return 0;
     return cycle->ml != NULL;
 }

@@ -14,6 +14,7 @@ void ost_smoother_destroy(OstSmoother **smoother)
     if (!*smoother)
         return;
     ost_smoother_blocks_destroy(&(*smoother)->blocks);
+    ost_patches_destroy(&(*smoother)->patches);
     OST_FREE((*smoother)->residual);
     OST_FREE(*smoother);
 }
@@ -58,6 +59,18 @@ OstStatus ost_smoother_create(const OstLevelMatrix *matrix, const OstMetricGraph
     return ost_smoother_create_of(matrix, graph, NULL, options, smoother);
 }
 
+/* Ranks sweep at the same time: as much of the largest eigenvalue of what they do together is taken as is above 1. */
+OstStatus ost_smoother_add_patches(const OstDoubleMatrix *stiffness, const OstMetricGraph *graph, int layers, int safe,
+                                   OstSmoother *smoother)
+{
+    double largest = 1.0;
+    OST_TRY(ost_patches_create(stiffness, graph, layers, safe, &smoother->patches));
+    if (ost_size(stiffness->ctx) > 1)
+        OST_TRY(ost_largest_eigenvalue(smoother->matrix, ost_patches_solve, smoother->patches, &largest));
+    smoother->weight = largest > 1.0 ? 1.0 / (safety * largest) : 1.0;
+    return OST_SUCCESS;
+}
+
 /* Chebyshev iteration: Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1. */
 OstChebyshev ost_smoother_begin(const OstSmoother *smoother)
 {
@@ -74,16 +87,36 @@ void ost_smoother_next(OstChebyshev *steps)
     steps->rho = next;
 }
 
-void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
+/* residual = b - A x */
+static void find_residual(OstSmoother *smoother, const double *b, const double *x, int from_zero)
 {
     const size_t n = ost_level_unknowns(smoother->matrix);
-    OstChebyshev steps = ost_smoother_begin(smoother);
     if (n > 0)
         memcpy(smoother->residual, b, n * sizeof(double));
-    if (!from_zero) {
-        if (n > 0)
-            memcpy(smoother->direction, x, n * sizeof(double));
-        ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
+    if (from_zero)
+        return;
+    if (n > 0)
+        memcpy(smoother->direction, x, n * sizeof(double));
+    ost_level_matrix_add(smoother->matrix, -1.0, smoother->direction, smoother->residual);
+}
+
+static void sweep(OstSmoother *smoother, double *x, int from_zero)
+{
+    const size_t n = ost_level_unknowns(smoother->matrix);
+    if (n > 0)
+        memset(smoother->direction, 0, n * sizeof(double));
+    ost_patches_sweep(smoother->patches, !from_zero, smoother->residual, smoother->direction);
+    for (size_t i = 0; i < n; i++)
+        x[i] = (from_zero ? 0.0 : x[i]) + smoother->weight * smoother->direction[i];
+}
+
+void ost_smoother_apply(OstSmoother *smoother, const double *b, double *x, int from_zero)
+{
+    OstChebyshev steps = ost_smoother_begin(smoother);
+    find_residual(smoother, b, x, from_zero);
+    if (smoother->patches) {
+        sweep(smoother, x, from_zero);
+        return;
     }
     OstBlockStep step = {.add = steps.add, .direction = smoother->direction, .x = x, .from_zero = from_zero};
     ost_smoother_blocks_step(smoother->blocks, &step, smoother->residual);
