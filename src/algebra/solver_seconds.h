@@ -17,4 +17,7 @@ double ost_solver_factor_seconds(const OstSolverFacts *facts);
 double ost_solver_multigrid_seconds(const OstSolverFacts *facts);
 double ost_solver_two_level_seconds(const OstSolverFacts *facts);
 
+/* Local. Is Newton's method to correct quadratic tets by factors? Of other tets and where nothing is known: no. */
+int ost_solver_factors_spare_corrections(const OstSolverFacts *facts);
+
 #endif

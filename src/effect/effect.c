@@ -168,7 +168,8 @@ static void mean_dilatation(const OstEffectFacts *f, OstEffectState *state)
 static void large_rotation(const OstEffectFacts *f, OstEffectState *state)
 {
     const double of_all = !has_links(f) ? 0.0 : f->quadratic ? 2100.0 : 1150.0;
-    const double bytes = (264.0 + of_all) * f->nodes + (f->quadratic ? 1320.0 : 40.0) * f->tets;
+    const double of_factors = f->factored ? 3150.0 : 0.0; /* what goes to MUMPS */
+    const double bytes = (264.0 + of_all + of_factors) * f->nodes + (f->quadratic ? 1320.0 : 40.0) * f->tets;
     if (f->large_rotation == 0)
         off(state, "the case says so: linear theory, which takes rotations and strains as small");
     else if (why_linear(f))

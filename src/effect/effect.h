@@ -69,6 +69,7 @@ typedef struct OstEffectFacts {
     int constraints, prescribed, slides, rigid_faces, ties, periodic;
     int free_body;
     int large_rotation; /* 0: off; 1: where linear theory is off by more than `accuracy`; 2: on */
+    int factored;       /* are its corrections to be found by factors? */
     int buckling;       /* modes asked for */
     double accuracy;    /* relative */
     const char *formulation;

@@ -341,19 +341,10 @@ static int is_at_rest(const OstNewton *newton, OstRest rest)
     return rest == OST_REST_FOUND || (rest == OST_REST_ROUNDING && newton->options.accept_attainable);
 }
 
-/* Corrections of thin bodies that a hierarchy leaves unfinished stretch them, which takes further ones: a strip of
- * 15,120 unknowns bent by 28 degrees takes 30 and 3 load steps, by factors 4 and one, in a sixth of the time; leaves,
- * and beams of 2 × 2 hexes, a half. A correction by factors may take so many times the seconds of a linear solve by
- * multigrid: plates of 40 × 40 hexes, where it takes more, gain nothing. */
-static const double longer_by_factors = 1.65;
-
 static int factors_spare_corrections(const OstNewton *newton)
 {
-    OstSolverFacts facts = newton->stiffness->facts;
-    facts.stops_early = 0;
-    if (newton->options.method != OST_METHOD_AUTO || ost_newton_is_saddle(newton) || !(facts.thickness > 0.0))
-        return 0;
-    return ost_solver_factor_seconds(&facts) < longer_by_factors * ost_solver_multigrid_seconds(&facts);
+    return newton->options.method == OST_METHOD_AUTO && !ost_newton_is_saddle(newton) &&
+           ost_solver_factors_spare_corrections(&newton->stiffness->facts);
 }
 
 /* The hierarchy of the stiffness at u = 0 serves a body that begins there. */
