@@ -20,7 +20,7 @@ OstRates ost_rates_typical(void)
         .typical = 1,
         .machine = "an AMD EPYC",
         .cores = 2,
-        .start = 0.3,
+        .start = 0.1,
         .process_bytes = 43.0 * 0x1p20,
         .small_bytes = {1.1e+07, 1.9e+07},
         .large_bytes = {1.1e+08, 1.45e+08},
