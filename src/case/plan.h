@@ -53,8 +53,9 @@ typedef struct OstPlan {
     double cells_across; /* and cells through that */
     int bends; /* would a thin wall bend? Not a curved one under pressure: it is a membrane, as a closed one is anyway
                 */
-    int adjoints;           /* of watched quantities */
-    int solves_to_residual; /* on a path; for a watched reaction of a mixed form, or of faces that are linked */
+    int adjoints;            /* of watched quantities */
+    int solves_to_residual;  /* on a path; for a watched reaction of a mixed form, or of faces that are linked */
+    int corrects_by_factors; /* is Newton's method to factor each stiffness? */
     OstCoarsening coarsening;
     OstPlanLevels levels; /* zeros where multigrid is not planned */
     OstGlobal unknowns;   /* upper bound: 3 × nodes, before supports are taken off */

@@ -234,8 +234,8 @@ void ost_plan_make(const OstCase *c, const OstPlanMesh *mesh, int ranks, OstPlan
     count_recovered(c, &facts);
     if (ost_effects_mixed(&facts)) /* what the pressures leave of the stiffness */
         plan->facts.poisson = fmin(plan->facts.poisson, OST_NEARLY_INCOMPRESSIBLE);
-    facts.factored = c->solver.method == OST_METHOD_AUTO && !ost_effects_mixed(&facts) &&
-                     ost_solver_factors_spare_corrections(&plan->facts);
+    facts.factored = plan->corrects_by_factors = c->solver.method == OST_METHOD_AUTO && !ost_effects_mixed(&facts) &&
+                                                 ost_solver_factors_spare_corrections(&plan->facts);
     plan->adjoints = count_adjoints(c, ost_effects_mixed(&facts));
     ost_solver_plan(&c->solver, &plan->facts, &plan->solver);
     facts.multigrid = ost_solver_may_be_multigrid(&plan->solver);

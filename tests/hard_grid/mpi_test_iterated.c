@@ -5,6 +5,17 @@
 
 #include <string.h>
 
+static HardReading read_solved(const HardPoint *point, const char *shape)
+{
+    HardReading reading;
+    assert_success(hard_read(ctx, point, &reading));
+    if (reading.outcome != HARD_SOLVED && reading.outcome != HARD_SOLVED_TO_ROUNDING)
+        fail_msg("%s: %s", shape, reading.reason);
+    if (ost_rank(ctx) == 0)
+        print_message("%s: %d iterations\n", shape, reading.iterations);
+    return reading;
+}
+
 /* Bodies without a factorisation; all but the last of nu = 1/2, by the mixed form. The plate used up its 500
  * iterations, as rounding had made the direction at hand and no pass began again; the beam, whose metric makes a strip
  * of it, had no aggregates that bend; of the checkerboard's pressures, next to far stiffer cells, the mass matrix knows
@@ -34,12 +45,7 @@ static void hard_bodies_are_solved_by_iterations(void **state)
                                  .stiff = bodies[i].stiff,
                                  .axes = bodies[i].axes,
                                  .iterated = 1};
-        HardReading reading;
-        assert_success(hard_read(ctx, &point, &reading));
-        if (reading.outcome != HARD_SOLVED && reading.outcome != HARD_SOLVED_TO_ROUNDING)
-            fail_msg("%s: %s", bodies[i].shape, reading.reason);
-        if (ost_rank(ctx) == 0)
-            print_message("%s: %d iterations\n", bodies[i].shape, reading.iterations);
+        const HardReading reading = read_solved(&point, bodies[i].shape);
         assert_true(reading.method != OST_METHOD_DIRECT);
         assert_true(reading.iterations <= bodies[i].most);
     }
@@ -82,12 +88,7 @@ static void bodies_without_factors_take_patches(void **state)
                                  .axes = 1,
                                  .iterated = 1,
                                  .size = 5000};
-        HardReading reading;
-        assert_success(hard_read(ctx, &point, &reading));
-        if (reading.outcome != HARD_SOLVED && reading.outcome != HARD_SOLVED_TO_ROUNDING)
-            fail_msg("%s: %s", bodies[i].shape, reading.reason);
-        if (ost_rank(ctx) == 0)
-            print_message("%s: %d iterations\n", bodies[i].shape, reading.iterations);
+        const HardReading reading = read_solved(&point, bodies[i].shape);
         assert_true(reading.method == OST_METHOD_STRONG);
         assert_true(reading.iterations <= bodies[i].most[several]);
     }

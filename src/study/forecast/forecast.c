@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "study/forecast/forecast.h"
 
+#include "algebra/solver_seconds.h"
 #include "case/case_data.h"
 
 #include <math.h>
@@ -205,8 +206,9 @@ static double newton_seconds(const OstCase *c, const OstPlan *plan, const OstFor
         forecast->seconds[OST_STAGE_SOLVE] / (cases * steps_of(c, OST_STAGE_SOLVE)) / forecast->iterations;
     if (!ost_effect_on(&plan->effects, OST_EFFECT_LARGE_ROTATION))
         return 0.0;
+    const double by_multigrid = newton_solve * iterations_to_residual(plan) * solve;
     return newton_assembly * forecast->seconds[OST_STAGE_ASSEMBLY] +
-           newton_solve * iterations_to_residual(plan) * solve;
+           (plan->corrects_by_factors ? ost_solver_factor_seconds(&plan->facts) : by_multigrid);
 }
 
 void ost_forecast_make(const OstCase *c, const OstPlan *plan, const OstRates *rates, int ranks, OstForecast *forecast)
